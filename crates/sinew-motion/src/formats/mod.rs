@@ -1,0 +1,8 @@
+//! Motion files, read and written.
+//!
+//! A reader turns bytes into a [`Parsed`]: the motion in the file's own units and axes, and a [`Document`] that
+//! remembers the file well enough to write it again with nothing changed but what the user asked for.
+
+mod document;
+
+pub use document::{Document, Format, Parsed, Source, WriteJob};
