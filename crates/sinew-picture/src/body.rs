@@ -212,7 +212,7 @@ fn light(normal: Vec3) -> f32 {
     // From above, the left and the viewer; wrapped a little around the edge of the light, which flatters limbs.
     const KEY: Vec3 = Vec3::new(-0.42, 0.70, 0.577);
     let key = ((normal.dot(KEY) + 0.30) / 1.30).max(0.0);
-    (0.50 + 0.56 * key + 0.05 * normal.y).clamp(0.0, 1.08)
+    (0.56 + 0.52 * key + 0.05 * normal.y).clamp(0.0, 1.08)
 }
 
 /// A rectangle of samples, both ends in.

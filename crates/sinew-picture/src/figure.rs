@@ -25,7 +25,7 @@ impl Shade {
     /// The tint in full light.
     pub fn colour(self) -> Colour {
         match self {
-            Shade::Midline => Colour::hex(0xD3CBC2),
+            Shade::Midline => Colour::hex(0xE4DBCF),
             Shade::Left => Colour::hex(0x4C93D6),
             Shade::Right => Colour::hex(0xF0953A),
             Shade::Object => Colour::hex(0x7DB48C),

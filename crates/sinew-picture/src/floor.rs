@@ -19,8 +19,8 @@ const FAR_M: f64 = 1.5;
 /// A camera lower than this (sine of its elevation) sees the floor as a line.
 const FLAT: f64 = 0.02;
 
-const LIGHT_TILE: Colour = Colour::hex(0xE9EDF2);
-const DARK_TILE: Colour = Colour::hex(0xD6DDE5);
+const LIGHT_TILE: Colour = Colour::hex(0xEAEEF3);
+const DARK_TILE: Colour = Colour::hex(0xCBD4DE);
 const SHADOW: Colour = Colour::hex(0x27303D);
 
 /// Height of the floor's near edge under the followed point \[m\] in the picture.

@@ -13,7 +13,7 @@ use crate::text::{Anchor, Type};
 use crate::{Colour, Error, Figure, Filmstrip, Panel, Shade, View, floor};
 
 const GHOST: Colour = Colour::hex(0x7B8AA3);
-const SKY: [Colour; 2] = [Colour::hex(0xF4F6F9), Colour::hex(0xFBFCFD)];
+const SKY: Colour = Colour::hex(0xF7F9FB);
 const EDGE: Colour = Colour::hex(0x222A36);
 /// Space between panels \[units\].
 const GAP: f32 = 8.0;
@@ -141,15 +141,7 @@ impl<'a> Layout<'a> {
 
     fn paint_panel(&self, panel: &Panel, painter: &mut Painter) -> Result<Canvas, Error> {
         let unit = self.unit;
-        let mut canvas = Canvas::new(self.panel_width as u32, self.panel_height as u32, SKY[1])?;
-        let (high, low) = (SKY[0].channels(), SKY[1].channels());
-        for row in 0..canvas.pixmap.height() {
-            let share = row as f32 / self.panel_height;
-            let shade = std::array::from_fn(|channel| high[channel] + (low[channel] - high[channel]) * share);
-            for column in 0..canvas.pixmap.width() {
-                canvas.blend(column as i32, row as i32, shade, 1.0);
-            }
-        }
+        let mut canvas = Canvas::new(self.panel_width as u32, self.panel_height as u32, SKY)?;
         let lens = self.lens(panel);
         floor::paint(&mut canvas, &lens, &panel.figure, self.ruler);
         if let Some(ghost) = &panel.ghost {
@@ -178,7 +170,7 @@ impl<'a> Layout<'a> {
             edge_opacity: 0.82,
             edge_px: (1.25 * self.unit).max(0.7),
             edge_jump_px: (0.035 * self.scale) as f32,
-            haze: SKY[0],
+            haze: SKY,
             floor: Some(Floor { rise: (self.view.up.y as f32, self.view.toward.y as f32), level }),
         }
     }
