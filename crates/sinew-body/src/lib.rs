@@ -1,1 +1,3 @@
-//! placeholder
+//! Masses, limits, kinematics and dynamics of a humanoid body.
+
+pub mod dynamics;
