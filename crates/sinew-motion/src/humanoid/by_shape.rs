@@ -75,7 +75,9 @@ impl<'a> Tree<'a> {
         let mut chain = vec![from];
         let mut at = from;
         let length = |joint: usize| self.offsets[joint].length() + self.reach[joint];
-        while let Some(&next) = self.children[at].iter().max_by(|&&a, &&b| length(a).total_cmp(&length(b)).then(b.cmp(&a))) {
+        while let Some(&next) =
+            self.children[at].iter().max_by(|&&a, &&b| length(a).total_cmp(&length(b)).then(b.cmp(&a)))
+        {
             chain.push(next);
             at = next;
         }
@@ -183,7 +185,9 @@ pub(super) fn find(clip: &Clip) -> Result<Shape, String> {
     let mut trunk = path(skeleton, hips, arms.at);
     trunk.insert(0, hips);
     let taken = |joint: usize| {
-        [legs, arms].iter().any(|pair| pair.limbs.iter().any(|limb| limb.base == joint) || skeleton.is_ancestor(joint, pair.at))
+        [legs, arms]
+            .iter()
+            .any(|pair| pair.limbs.iter().any(|limb| limb.base == joint) || skeleton.is_ancestor(joint, pair.at))
     };
     let neck = trunk.iter().skip(1).rev().find_map(|&joint| {
         let branches = tree.children[joint].iter().copied().filter(|&child| !taken(child));

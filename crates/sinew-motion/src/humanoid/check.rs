@@ -131,7 +131,9 @@ pub(super) fn stands_on_two_legs(draft: &Draft, clip: &Clip, names: &Names) -> R
         for side in SIDES {
             let limb = |upper, lower| Some((draft.on(upper, side)?, draft.on(lower, side)?));
             for (upper, lower) in
-                [limb(Part::LeftUpperLeg, Part::LeftFoot), limb(Part::LeftUpperArm, Part::LeftLowerArm)].into_iter().flatten()
+                [limb(Part::LeftUpperLeg, Part::LeftFoot), limb(Part::LeftUpperArm, Part::LeftLowerArm)]
+                    .into_iter()
+                    .flatten()
             {
                 along += 0.25 * trunk.dot((point(lower) - point(upper)).normalize_or_zero());
             }
@@ -153,7 +155,9 @@ pub(super) fn stands_on_two_legs(draft: &Draft, clip: &Clip, names: &Names) -> R
             None => "stands on its toes".to_owned(),
         };
         return Err(error(
-            format!("it goes on four limbs with a level trunk and {why}: a four-legged animal, where Sinew needs a biped"),
+            format!(
+                "it goes on four limbs with a level trunk and {why}: a four-legged animal, where Sinew needs a biped"
+            ),
             clip.skeleton(),
         ));
     }
