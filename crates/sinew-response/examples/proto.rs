@@ -144,6 +144,7 @@ fn main() {
     let settings = Settings { preset, k, ..Settings::default() };
     let basis = Basis::of_motion(&body, &poses[count..2 * count + 2], &settings).unwrap();
     println!("spectrum {:?}", basis.eigenvalues().map(|v| (v.sqrt() * 100.0).round() / 100.0));
+    println!("growth {:.4} over {} frames", growth(&body, &basis, &settings, &poses[count..2 * count + 2]), count);
     let run = |push: Option<(Node, DVec3, usize)>| {
         let mut r = Response::new(body.clone(), basis.clone(), settings, &poses[0]);
         r.restart(&poses[0], &poses[1]);

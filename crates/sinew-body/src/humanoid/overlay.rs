@@ -38,18 +38,30 @@ impl Deviation {
         turns: [DVec3::ZERO; UPPER_NODES],
     };
 
-    /// The deviation that stands at `fraction` between two neighbours in time.
-    pub fn lerp(&self, other: &Deviation, fraction: f64) -> Deviation {
-        let mut turns = self.turns;
-        for (turn, next) in turns.iter_mut().zip(&other.turns) {
-            *turn = turn.lerp(*next, fraction);
-        }
+    /// The deviation at `fraction` between the middle two of four that follow each other at equal times: a cubic whose
+    /// slope is continuous from one stretch to the next (Catmull-Rom).
+    pub fn cubic(around: [&Deviation; 4], fraction: f64) -> Deviation {
+        let (t, t2, t3) = (fraction, fraction * fraction, fraction * fraction * fraction);
+        let weights = [
+            0.5 * (-t3 + 2.0 * t2 - t),
+            0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
+            0.5 * (-3.0 * t3 + 4.0 * t2 + t),
+            0.5 * (t3 - t2),
+        ];
+        let mix = |of: &dyn Fn(&Deviation) -> DVec3| -> DVec3 {
+            around.iter().zip(weights).map(|(deviation, weight)| of(deviation) * weight).sum()
+        };
         Deviation {
-            hips_shift: self.hips_shift.lerp(other.hips_shift, fraction),
-            hips_turn: self.hips_turn.lerp(other.hips_turn, fraction),
-            ground_shift: self.ground_shift.lerp(other.ground_shift, fraction),
-            turns,
+            hips_shift: mix(&|deviation| deviation.hips_shift),
+            hips_turn: mix(&|deviation| deviation.hips_turn),
+            ground_shift: mix(&|deviation| deviation.ground_shift),
+            turns: std::array::from_fn(|node| mix(&|deviation| deviation.turns[node])),
         }
+    }
+
+    /// The same with its shifts in other units: metres of the clip from metres of the body.
+    pub fn with_shifts_scaled(&self, scale: f64) -> Deviation {
+        Deviation { hips_shift: self.hips_shift * scale, ground_shift: self.ground_shift * scale, ..*self }
     }
 }
 

@@ -1,0 +1,62 @@
+//! Whether small deviations die out.
+//!
+//! The response to a small deviation is linear, with coefficients that follow the motion. Over a stretch of motion it is
+//! one matrix, and if the motion went on repeating that stretch, deviations would grow by the matrix's spectral radius each
+//! time (Floquet's theory of periodic systems). Below 1 the body comes back from any small push by itself.
+
+use crate::basis::Basis;
+use crate::response::Response;
+use crate::settings::Settings;
+use nalgebra::DMatrix;
+use sinew_body::humanoid::{Body, Limit, Node, Pose, UPPER_DOFS};
+
+/// Deviation and its growth: the state of the linearised step.
+const STATE: usize = 2 * UPPER_DOFS;
+
+/// Size of the trial deviations \[rad\]: far below where the response bends, far above rounding.
+const TRIAL: f64 = 1e-6;
+
+/// By what factor the largest small deviation grows over a stretch of motion, were the stretch to repeat: the spectral
+/// radius of the linearised steps' product. Joint limits are left out: they only ever stop a deviation.
+///
+/// A stretch of fewer than three poses has no growth to tell: 0.
+pub fn growth(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
+    let [first, ..] = motion else { return 0.0 };
+    if motion.len() < 3 {
+        return 0.0;
+    }
+    let mut body = body.clone();
+    for node in Node::ALL {
+        body.link_mut(node).limit = Limit::NONE;
+    }
+    let mut response = Response::new(body, basis.clone(), *settings, first);
+    let mut product = DMatrix::<f64>::identity(STATE, STATE);
+    for window in motion.windows(3) {
+        let step = linearised(&mut response, [&window[0], &window[1], &window[2]]);
+        product = step * product;
+    }
+    let eigenvalues = product.complex_eigenvalues();
+    eigenvalues.iter().map(|value| (value.re * value.re + value.im * value.im).sqrt()).fold(0.0, f64::max)
+}
+
+/// The step from the middle pose to the last, as a matrix over deviation and growth.
+fn linearised(response: &mut Response, [before, now, next]: [&Pose; 3]) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(STATE, STATE);
+    for column in 0..STATE {
+        let (mut deviation, mut growth) = ([0.0; UPPER_DOFS], [0.0; UPPER_DOFS]);
+        if column < UPPER_DOFS {
+            deviation[column] = TRIAL;
+        } else {
+            growth[column - UPPER_DOFS] = TRIAL;
+        }
+        response.restart(before, now);
+        response.set_deviation(&deviation, &growth);
+        response.step(next, &[]);
+        let (deviation, growth) = response.deviation_and_growth();
+        for row in 0..UPPER_DOFS {
+            matrix[(row, column)] = deviation[row] / TRIAL;
+            matrix[(UPPER_DOFS + row, column)] = growth[row] / TRIAL;
+        }
+    }
+    matrix
+}

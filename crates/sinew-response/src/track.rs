@@ -1,0 +1,144 @@
+//! A response over a whole motion.
+
+use crate::basis::Basis;
+use crate::force::PointForce;
+use crate::motion::Motion;
+use crate::push::{GroundJerk, Push, Span, in_world};
+use crate::response::{Report, Response};
+use crate::settings::Settings;
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Deviation, Node, Pose, log};
+
+/// What happens to a character.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Disturbances<'a> {
+    /// Forces on its parts.
+    pub pushes: &'a [Push],
+    /// Jerks of the ground that it stands on.
+    pub ground: &'a [GroundJerk],
+}
+
+/// How a character went through a motion: a pose, a deviation and a report for each of the motion's poses.
+#[derive(Clone, Debug)]
+pub struct Track {
+    poses: Vec<Pose>,
+    deviations: Vec<Deviation>,
+    reports: Vec<Report>,
+    forces: Vec<Option<DVec3>>,
+    start_secs: f64,
+    time_step_secs: f64,
+}
+
+impl Track {
+    /// Runs the response through a motion.
+    pub fn run(body: &Body, basis: &Basis, settings: &Settings, motion: &Motion, happens: Disturbances) -> Track {
+        let dt = settings.time_step_secs;
+        let start = motion.start_secs();
+        let input = motion.poses();
+        let mut track = Track {
+            poses: input.first().copied().into_iter().collect(),
+            deviations: input.first().map(|_| Deviation::NONE).into_iter().collect(),
+            reports: input.first().map(|_| Report::default()).into_iter().collect(),
+            forces: vec![None; happens.pushes.len()],
+            start_secs: start,
+            time_step_secs: dt,
+        };
+        let [first, second, ..] = input else { return track };
+        let mut response = Response::new(body.clone(), basis.clone(), *settings, first);
+        // The frame before the first is taken to continue the motion backward.
+        response.restart(&backward(first, second), first);
+        let pushes: Vec<Span> =
+            happens.pushes.iter().map(|push| Span::of(push.at_secs, push.for_secs, start, dt)).collect();
+        let jerks: Vec<Span> =
+            happens.ground.iter().map(|jerk| Span::of(jerk.at_secs, jerk.for_secs, start, dt)).collect();
+        let mut accelerations = vec![DVec3::ZERO; jerks.len()];
+        let mut forces: Vec<Option<PointForce>> = vec![None; pushes.len()];
+        let mut acting: Vec<PointForce> = Vec::with_capacity(pushes.len());
+        for (now, wanted) in input.iter().enumerate().skip(1).map(|(next, wanted)| (next - 1, wanted)) {
+            acting.clear();
+            for (index, span) in pushes.iter().enumerate().filter(|(_, span)| span.holds(now)) {
+                let shown = &track.poses[now];
+                let force = forces[index].get_or_insert_with(|| happens.pushes[index].on(shown, span.scale));
+                track.forces[index] = Some(force.force_n);
+                acting.push(*force);
+            }
+            let mut ground = DVec3::ZERO;
+            for (index, span) in jerks.iter().enumerate().filter(|(_, span)| span.holds(now)) {
+                let jerk = &happens.ground[index];
+                if now == span.first {
+                    accelerations[index] = in_world(jerk.acceleration, jerk.frame, &track.poses[now]) * span.scale;
+                }
+                ground += accelerations[index];
+            }
+            track.poses.push(response.step_on_moving_ground(wanted, &acting, ground));
+            track.deviations.push(response.deviation());
+            track.reports.push(response.report());
+        }
+        track
+    }
+
+    /// The poses given out, one per pose of the motion.
+    pub fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
+    /// How far each is from the motion; shifts in metres of the body.
+    pub fn deviations(&self) -> &[Deviation] {
+        &self.deviations
+    }
+
+    /// What each step did; the first pose has none.
+    pub fn reports(&self) -> &[Report] {
+        &self.reports
+    }
+
+    /// Each push's force in the world \[N\]; `None` for one that never acted (it began after the end).
+    pub fn forces(&self) -> &[Option<DVec3>] {
+        &self.forces
+    }
+
+    /// The deviation at a time from the clip's first frame \[s\], between poses by a cubic through its neighbours
+    /// (Catmull-Rom), before the first and after the last that of the nearest pose.
+    pub fn deviation_at(&self, secs: f64) -> Deviation {
+        let Some(last) = self.deviations.len().checked_sub(1) else { return Deviation::NONE };
+        let at = ((secs - self.start_secs) / self.time_step_secs).clamp(0.0, last as f64);
+        let index = (at.floor() as usize).min(last);
+        let fraction = at - index as f64;
+        // Frame times are sums of rounded numbers: what lies on a pose is that pose.
+        if fraction < 1e-6 || index == last {
+            return self.deviations[index];
+        }
+        if fraction > 1.0 - 1e-6 {
+            return self.deviations[index + 1];
+        }
+        let around = [index.saturating_sub(1), index, index + 1, (index + 2).min(last)];
+        Deviation::cubic(around.map(|index| &self.deviations[index]), fraction)
+    }
+
+    /// Per node the angle \[rad\] of its joint from another run's, in one pose.
+    pub fn deflection(&self, other: &Track, index: usize) -> [f64; Node::COUNT] {
+        let (ours, theirs) = (&self.poses[index], &other.poses[index]);
+        Node::ALL.map(|node| {
+            let (a, b) = if node == Node::Hips {
+                (ours.world[0], theirs.world[0])
+            } else {
+                (ours.local(node), theirs.local(node))
+            };
+            log(b.conjugate() * a).length()
+        })
+    }
+
+    /// Whether every pose is finite.
+    pub fn is_finite(&self) -> bool {
+        self.poses.iter().all(Pose::is_finite)
+    }
+}
+
+/// The pose that a motion from `first` to `second` would have come from.
+fn backward(first: &Pose, second: &Pose) -> Pose {
+    let locals = Node::ALL.map(|node| {
+        let (a, b) = (first.local(node), second.local(node));
+        (a * (b.conjugate() * a)).normalize()
+    });
+    Pose::from_locals(first.hips_position * 2.0 - second.hips_position, &locals)
+}
