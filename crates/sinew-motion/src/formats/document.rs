@@ -73,6 +73,8 @@ pub enum Document {
     Bvh(Box<BvhDocument>),
     /// An AMC file with its ASF skeleton.
     Amc(Box<AmcDocument>),
+    /// A glTF file: its meshes, materials and other nodes stay, its first animation is replaced.
+    Gltf(Box<super::gltf::GltfDocument>),
 }
 
 /// What a writer is given.

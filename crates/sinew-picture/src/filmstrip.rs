@@ -1,0 +1,106 @@
+//! Motion as a row of moments.
+
+use glam::DVec3;
+use tiny_skia::Pixmap;
+
+use crate::arrow::Arrow;
+use crate::canvas::{Canvas, encode};
+use crate::colour::PAPER;
+use crate::limits::{MAX_WIDTH_PX, MIN_WIDTH_PX};
+use crate::{Camera, Error, Figure, strip};
+
+/// One moment of a motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panel {
+    /// When \[s\]; written under the panel. Not written when not finite.
+    pub time_secs: f64,
+    /// The body.
+    pub figure: Figure,
+    /// What it is compared with, as a rule the input motion: drawn pale, behind the body.
+    pub ghost: Option<Figure>,
+    /// Forces at this moment.
+    pub arrows: Vec<Arrow>,
+    /// The point that the panel keeps in its middle \[m\], world, as a rule the pelvis; only its horizontal place counts.
+    /// `None` takes the middle of the figure, which sways with the arms.
+    pub follow: Option<DVec3>,
+    /// A few words under the time; may be empty.
+    pub caption: String,
+}
+
+/// How a filmstrip is laid out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Style {
+    /// Width of the picture \[px\], [`MIN_WIDTH_PX`] to [`MAX_WIDTH_PX`]; text and lines scale with it. Default 1800.
+    pub width_px: u32,
+    /// Most panels in a row; more wrap into rows of equal length. Default 8.
+    pub columns: usize,
+    /// Height of the floor \[m\], world. Default 0.
+    pub floor_m: f64,
+    /// What the ghost is, for the legend. Default "input motion".
+    pub ghost_name: String,
+}
+
+impl Default for Style {
+    fn default() -> Style {
+        Style { width_px: 1800, columns: 8, floor_m: 0.0, ghost_name: "input motion".to_owned() }
+    }
+}
+
+/// Moments of a motion side by side, all at one scale. Each panel follows the body, over a floor fixed to the world.
+///
+/// ```
+/// use glam::DVec3;
+/// use sinew_picture::{Capsule, Figure, Filmstrip, Panel, Shade};
+///
+/// let panels = (0..4).map(|step| {
+///     let hips = DVec3::new(0.0, 1.0, 0.3 * f64::from(step));
+///     let trunk = Capsule::tapered(hips, hips + DVec3::Y * 0.5, 0.13, 0.16, Shade::Midline);
+///     Panel { time_secs: 0.25 * f64::from(step), figure: Figure::new(vec![trunk]), ..Panel::default() }
+/// });
+/// let strip = Filmstrip { title: "A trunk, gliding".to_owned(), panels: panels.collect(), ..Filmstrip::default() };
+/// let png = strip.to_png()?;
+/// assert_eq!(&png[1..4], b"PNG");
+/// # Ok::<(), sinew_picture::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Filmstrip {
+    /// The headline; may be empty.
+    pub title: String,
+    /// A line under the headline; may be empty.
+    pub subtitle: String,
+    /// The moments, in the order of reading; at most [`MAX_PANELS`](crate::limits::MAX_PANELS) are drawn.
+    pub panels: Vec<Panel>,
+    /// Where the viewer stands, the same for all panels.
+    pub camera: Camera,
+    /// How it is laid out.
+    pub style: Style,
+}
+
+impl Filmstrip {
+    /// Draws the picture.
+    ///
+    /// # Errors
+    /// When there is no memory for it.
+    pub fn draw(&self) -> Result<Pixmap, Error> {
+        let width = self.style.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
+        let layout = strip::Layout::new(self, width as f32);
+        let mut canvas = Canvas::new(width, layout.height().ceil() as u32, PAPER)?;
+        layout.paint(&mut canvas, 0.0)?;
+        Ok(canvas.pixmap)
+    }
+
+    /// Draws the picture as the bytes of a PNG file.
+    ///
+    /// # Errors
+    /// When there is no memory for it, or the encoder fails.
+    pub fn to_png(&self) -> Result<Vec<u8>, Error> {
+        encode(&self.draw()?)
+    }
+
+    /// Where a point of the world appears in panel `index` of the drawn picture \[px\], x right, y down; `None` for a
+    /// panel that is not drawn or a point that is not finite. The point may lie outside the panel.
+    pub fn spot(&self, index: usize, point: DVec3) -> Option<(f32, f32)> {
+        let width = self.style.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
+        strip::Layout::new(self, width as f32).spot(index, point)
+    }
+}

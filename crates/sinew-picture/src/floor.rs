@@ -1,0 +1,191 @@
+//! The floor: tiles that show how feet travel, shadows that show how high they are, and a ruler along its near edge.
+//!
+//! Tiles and ruler are fixed to the world, half a metre apart: a foot that skates moves against them from panel to panel.
+
+use glam::{DVec3, Vec2};
+
+use crate::canvas::Canvas;
+use crate::colour::{HAIRLINE, INK_SOFT};
+use crate::lens::Lens;
+use crate::text::{Anchor, Type};
+use crate::{Colour, Figure};
+
+/// Side of a tile and distance of the ruler's ticks \[m\].
+pub(crate) const TILE_M: f64 = 0.5;
+/// How far the floor reaches from the followed point toward the viewer \[m\].
+pub(crate) const NEAR_M: f64 = 0.45;
+/// How far it reaches away from the viewer \[m\]; it fades on the way.
+const FAR_M: f64 = 1.5;
+/// A camera lower than this (sine of its elevation) sees the floor as a line.
+const FLAT: f64 = 0.02;
+
+const LIGHT_TILE: Colour = Colour::hex(0xEAEEF3);
+const DARK_TILE: Colour = Colour::hex(0xCBD4DE);
+const SHADOW: Colour = Colour::hex(0x27303D);
+
+/// Height of the floor's near edge under the followed point \[m\] in the picture.
+pub(crate) fn near_drop_m(lens_up_rise: f64) -> f64 {
+    if lens_up_rise > FLAT { NEAR_M * lens_up_rise } else { 0.0 }
+}
+
+/// Sine of the camera's elevation.
+fn rise(lens: &Lens) -> f64 {
+    lens.view.toward.y
+}
+
+/// Paints tiles and shadows down to `bottom` \[px\].
+pub(crate) fn paint(canvas: &mut Canvas, lens: &Lens, figure: &Figure, bottom: f32) {
+    let rise = rise(lens);
+    if rise <= FLAT {
+        canvas.rect(0.0, lens.at.1, canvas.width(), 1.5, INK_SOFT);
+        return;
+    }
+    let shadows: Vec<Shadow> = figure.drawable().filter_map(|capsule| Shadow::new(&capsule, lens.origin)).collect();
+    let away = -DVec3::new(lens.view.toward.x, 0.0, lens.view.toward.z).normalize_or_zero();
+    let right = lens.view.right;
+    let top = (f64::from(lens.at.1) - FAR_M * rise * lens.scale).floor().max(0.0) as u32;
+    let bottom = (bottom.ceil().max(0.0) as u32).min(canvas.pixmap.height());
+    // World travel of one pixel: the tiles' edges are blurred by just that.
+    let (across, along) = (1.0 / lens.scale, 1.0 / (lens.scale * rise));
+    let blur_x = (right.x.abs() * across + away.x.abs() * along) / TILE_M;
+    let blur_z = (right.z.abs() * across + away.z.abs() * along) / TILE_M;
+    let (light, dark, shade) = (LIGHT_TILE.channels(), DARK_TILE.channels(), SHADOW.channels());
+    for row in top..bottom {
+        let depth = (f64::from(lens.at.1) - f64::from(row) - 0.5) / lens.scale / rise;
+        let shown = smooth(((FAR_M - depth) / FAR_M) as f32);
+        for column in 0..canvas.pixmap.width() {
+            let side = (f64::from(column) + 0.5 - f64::from(lens.at.0)) / lens.scale;
+            let offset = right * side + away * depth;
+            let spot = lens.origin + offset;
+            let parity = wave(spot.x / TILE_M, blur_x) * wave(spot.z / TILE_M, blur_z);
+            let darkness = parity as f32 * 0.5 + 0.5;
+            let tile = std::array::from_fn(|channel| light[channel] + (dark[channel] - light[channel]) * darkness);
+            canvas.blend(column as i32, row as i32, tile, shown);
+            let under = Vec2::new(offset.x as f32, offset.z as f32);
+            let shadow = total(&shadows, under);
+            if shadow > 0.004 {
+                canvas.blend(column as i32, row as i32, shade, shadow * shown.max(0.25));
+            }
+        }
+    }
+}
+
+/// A square wave of period 2 (+1 on even, −1 on odd unit steps), averaged over a width.
+fn wave(at: f64, width: f64) -> f64 {
+    // The triangle wave is its integral.
+    let integral = |at: f64| {
+        let phase = at - 2.0 * (at / 2.0).floor();
+        if phase < 1.0 { phase } else { 2.0 - phase }
+    };
+    let width = width.max(1e-9);
+    (integral(at + width / 2.0) - integral(at - width / 2.0)) / width
+}
+
+/// 0 below 0, 1 above 1, and no corner between.
+fn smooth(share: f32) -> f32 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+/// A capsule as the floor sees it; positions from the followed point, x and z \[m\].
+struct Shadow {
+    from: Vec2,
+    to: Vec2,
+    /// Height of the underside over the floor \[m\] at each end.
+    gap: (f32, f32),
+    radius: (f32, f32),
+}
+
+impl Shadow {
+    fn new(capsule: &crate::Capsule, origin: DVec3) -> Option<Shadow> {
+        let end = |end: DVec3| Vec2::new((end.x - origin.x) as f32, (end.z - origin.z) as f32);
+        let gap = |end: DVec3, radius_m: f64| (end.y - origin.y - radius_m).max(0.0) as f32;
+        let gap = (gap(capsule.from, capsule.radius_from_m), gap(capsule.to, capsule.radius_to_m));
+        let radius = (capsule.radius_from_m as f32, capsule.radius_to_m as f32);
+        // Higher than this its shadow is too faint and wide to see.
+        (gap.0.min(gap.1) < 1.3).then(|| Shadow { from: end(capsule.from), to: end(capsule.to), gap, radius })
+    }
+
+    /// Contact shadow (dark, close) and ambient shadow (faint, wide) under a point of the floor.
+    fn at(&self, point: Vec2) -> (f32, f32) {
+        let axis = self.to - self.from;
+        let share = ((point - self.from).dot(axis) / axis.length_squared().max(1e-9)).clamp(0.0, 1.0);
+        let away = (point - self.from - axis * share).length();
+        let gap = self.gap.0 + (self.gap.1 - self.gap.0) * share;
+        let radius = self.radius.0 + (self.radius.1 - self.radius.0) * share;
+        let contact_reach = radius * 1.15 + 0.02 + gap * 0.35;
+        let wide_reach = radius * 1.6 + 0.10 + gap * 0.35;
+        let steep = gap / 0.045;
+        (
+            0.62 / (1.0 + steep * steep) * smooth(1.0 - away / contact_reach),
+            0.16 / (1.0 + gap * 1.5) * smooth(1.0 - away / wide_reach),
+        )
+    }
+}
+
+fn total(shadows: &[Shadow], point: Vec2) -> f32 {
+    let (mut contact, mut light) = (0.0f32, 1.0f32);
+    for shadow in shadows {
+        let (close, wide) = shadow.at(point);
+        contact = contact.max(close);
+        light *= 1.0 - wide;
+    }
+    1.0 - (1.0 - contact) * light.max(0.72)
+}
+
+/// Ticks each half metre and numbers each metre along the floor's near edge, at `top` \[px\].
+pub(crate) fn ruler(canvas: &mut Canvas, lens: &Lens, top: f32, unit: f32) {
+    let right = lens.view.right;
+    // The world axis that runs more across the picture.
+    let along_x = right.x.abs() >= right.z.abs();
+    let pick = |vector: DVec3| if along_x { vector.x } else { vector.z };
+    let away = -DVec3::new(lens.view.toward.x, 0.0, lens.view.toward.z).normalize_or_zero();
+    let near = if rise(lens) > FLAT { NEAR_M } else { 0.0 };
+    let middle = pick(lens.origin) - near * pick(away);
+    let slope = pick(right);
+    let width = f64::from(canvas.width());
+    canvas.rect(0.0, top, canvas.width(), 1.0, HAIRLINE);
+    let reach = width / lens.scale * slope.abs();
+    let first = ((middle - reach) / TILE_M).ceil();
+    let count = ((2.0 * reach / TILE_M) as usize).min(200);
+    for step in 0..=count {
+        let tick = first + step as f64;
+        let x = f64::from(lens.at.0) + (tick * TILE_M - middle) / slope * lens.scale;
+        if !(0.0..width).contains(&x) {
+            continue;
+        }
+        let whole = tick % 2.0 == 0.0;
+        let x = (x as f32).round();
+        canvas.rect(x, top, unit.max(1.0), if whole { 6.0 } else { 4.0 } * unit, INK_SOFT);
+        let font = Type::plain(11.5 * unit, INK_SOFT);
+        let metres = tick * TILE_M;
+        let label = if metres.abs() < 1e5 { format!("{metres:.0} m").replace('-', "−") } else { String::new() };
+        let half = font.width(&label) / 2.0;
+        if whole && x > half + 2.0 && x + half + 2.0 < canvas.width() {
+            canvas.text((x, top + 18.0 * unit), Anchor::Middle, font, &label);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_alternate_each_half_metre_and_average_to_grey_when_far() {
+        assert!((wave(0.5, 0.01) - 1.0).abs() < 1e-9);
+        assert!((wave(1.5, 0.01) + 1.0).abs() < 1e-9);
+        assert!((wave(-0.5, 0.01) + 1.0).abs() < 1e-9);
+        assert!(wave(0.3, 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_lifted_foot_leaves_a_fainter_shadow_than_one_on_the_floor() {
+        let foot = |height: f64| {
+            let ends = (DVec3::new(0.0, height, 0.0), DVec3::new(0.0, height, 0.2));
+            Shadow::new(&crate::Capsule::new(ends.0, ends.1, 0.04, crate::Shade::Left), DVec3::ZERO)
+        };
+        let dark = |height: f64| total(&[foot(height).unwrap()], Vec2::new(0.0, 0.1));
+        assert!(dark(0.04) > 1.5 * dark(0.09), "{} {}", dark(0.04), dark(0.09));
+    }
+}

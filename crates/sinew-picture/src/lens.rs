@@ -1,0 +1,44 @@
+//! From the world to one panel.
+
+use glam::{DVec3, Vec3};
+
+use crate::body::Solid;
+use crate::canvas::Spot;
+use crate::{Capsule, Figure, View};
+
+/// Where a panel sees the world: the point on the floor that it follows, and the scale.
+#[derive(Clone, Copy)]
+pub(crate) struct Lens {
+    pub view: View,
+    /// The point followed, on the floor \[m\], world.
+    pub origin: DVec3,
+    /// Pixels per metre.
+    pub scale: f64,
+    /// Where the origin lies in the panel \[px\], y down.
+    pub at: Spot,
+}
+
+impl Lens {
+    /// A point of the world in panel axes \[px\]: right from the left edge, *up* from the top edge, toward the viewer.
+    pub fn panel_from_world(&self, point: DVec3) -> Vec3 {
+        let seen = self.view.view_from_world(point - self.origin) * self.scale;
+        Vec3::new(seen.x as f32 + self.at.0, seen.y as f32 - self.at.1, seen.z as f32)
+    }
+
+    /// Where a point of the world appears in the panel \[px\], y down.
+    pub fn spot(&self, point: DVec3) -> Spot {
+        let seen = self.panel_from_world(point);
+        (seen.x, -seen.y)
+    }
+
+    pub fn solids(&self, figure: &Figure) -> Vec<Solid> {
+        let solid = |capsule: Capsule| Solid {
+            from: self.panel_from_world(capsule.from),
+            to: self.panel_from_world(capsule.to),
+            radius_from: (capsule.radius_from_m * self.scale) as f32,
+            radius_to: (capsule.radius_to_m * self.scale) as f32,
+            shade: capsule.shade,
+        };
+        figure.drawable().map(solid).collect()
+    }
+}
