@@ -1,5 +1,7 @@
 //! What a reader hands on, and what a writer is given.
 
+use super::amc::AmcDocument;
+use super::bvh::BvhDocument;
 use crate::{Clip, Note, SourceSpace};
 use std::fmt;
 use std::path::Path;
@@ -67,6 +69,10 @@ pub struct Parsed {
 pub enum Document {
     /// Nothing is kept: the file can only be written anew.
     None,
+    /// A BVH file.
+    Bvh(Box<BvhDocument>),
+    /// An AMC file with its ASF skeleton.
+    Amc(Box<AmcDocument>),
     /// A glTF file: its meshes, materials and other nodes stay, its first animation is replaced.
     Gltf(Box<super::gltf::GltfDocument>),
 }

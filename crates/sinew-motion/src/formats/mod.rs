@@ -3,11 +3,14 @@
 //! A reader turns bytes into a [`Parsed`]: the motion in the file's own units and axes, and a [`Document`] that
 //! remembers the file well enough to write it again with nothing changed but what the user asked for.
 
+pub mod amc;
 mod body_shape;
+pub mod bvh;
 mod document;
 pub mod fbx;
 pub mod gltf;
 mod rate;
+mod text;
 
 pub use body_shape::BodyShape;
 pub use document::{Document, Format, Parsed, Source, WriteJob};

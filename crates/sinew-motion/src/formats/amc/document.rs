@@ -1,0 +1,37 @@
+//! An AMC file, kept.
+
+use super::bone::Bone;
+use crate::formats::text::Span;
+use std::sync::Arc;
+
+/// An AMC file and its skeleton as they were: their text, and where the frames stand.
+#[derive(Clone, Debug)]
+pub struct AmcDocument {
+    pub(super) bytes: Arc<[u8]>,
+    pub(super) skeleton_bytes: Arc<[u8]>,
+    /// One per joint of the clip.
+    pub(super) bones: Vec<Bone>,
+    /// Whether angles are degrees, or radians.
+    pub(super) degrees: bool,
+    /// Joints that the motion has values for.
+    pub(super) present: Vec<bool>,
+    /// From the line with the frame's number to the end of its last line, line end included.
+    pub(super) frames: Vec<Span>,
+}
+
+impl AmcDocument {
+    /// The motion's text.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The skeleton's text.
+    pub fn skeleton_bytes(&self) -> &[u8] {
+        &self.skeleton_bytes
+    }
+
+    /// How many complete frames the file holds.
+    pub fn frames(&self) -> usize {
+        self.frames.len()
+    }
+}
