@@ -126,25 +126,23 @@ pub(super) fn stands_on_two_legs(draft: &Draft, clip: &Clip, names: &Names) -> R
     for pose in &poses {
         let point = |joint: usize| pose[joint].translation;
         let trunk = (point(chest) - point(hips)).normalize_or_zero();
-        let mut along = 0.0;
+        let reach = |upper, end, side| Some((point(draft.on(end, side)?) - point(draft.on(upper, side)?)).normalize_or_zero());
+        let mut level = true;
         let mut foot_to_shin = 0.0;
         for side in SIDES {
-            let limb = |upper, lower| Some((draft.on(upper, side)?, draft.on(lower, side)?));
-            for (upper, lower) in
-                [limb(Part::LeftUpperLeg, Part::LeftFoot), limb(Part::LeftUpperArm, Part::LeftLowerArm)]
-                    .into_iter()
-                    .flatten()
-            {
-                along += 0.25 * trunk.dot((point(lower) - point(upper)).normalize_or_zero());
-            }
+            let leg = reach(Part::LeftUpperLeg, Part::LeftFoot, side).unwrap_or_default();
+            let arm = reach(Part::LeftUpperArm, Part::LeftHand, side)
+                .or(reach(Part::LeftUpperArm, Part::LeftLowerArm, side))
+                .unwrap_or_default();
+            // Legs square to the trunk and arms beside them: on all fours, or sitting with the arms held out.
+            level &= trunk.dot(leg).abs() < 0.7 && trunk.dot(arm).abs() < 0.7 && leg.dot(arm) > 0.6;
             if let (Some(shin), Some(foot), Some(toes)) =
                 (draft.on(Part::LeftLowerLeg, side), draft.on(Part::LeftFoot, side), draft.on(Part::LeftToes, side))
             {
                 foot_to_shin += 0.5 * point(foot).distance(point(toes)) / point(shin).distance(point(foot)).max(1e-9);
             }
         }
-        // The mean limb of somebody who stands points down the trunk (-1); of a quadruped, square to it.
-        on_fours += usize::from(along.abs() < 0.5);
+        on_fours += usize::from(level);
         on_toes += usize::from(foot_to_shin > 0.65);
     }
     let tail = (0..clip.skeleton().len()).find(|&joint| names.kind(joint) == Some(Kind::Tail));
@@ -155,9 +153,7 @@ pub(super) fn stands_on_two_legs(draft: &Draft, clip: &Clip, names: &Names) -> R
             None => "stands on its toes".to_owned(),
         };
         return Err(error(
-            format!(
-                "it goes on four limbs with a level trunk and {why}: a four-legged animal, where Sinew needs a biped"
-            ),
+            format!("it goes on four limbs with a level trunk and {why}: a four-legged animal, where Sinew needs a biped"),
             clip.skeleton(),
         ));
     }

@@ -1,0 +1,191 @@
+//! What is wrong with a motion.
+
+use crate::floor::{Feet, contacts, floor_height_m, runs};
+use crate::gait::pose_gap;
+use crate::pose::quantile;
+use crate::{Clip, Humanoid, Part, Side};
+
+/// A kind of defect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DefectKind {
+    /// The first frame is a rest pose that does not belong to the motion.
+    RestPoseFirst,
+    /// Many frames in a row are one and the same pose.
+    Frozen,
+    /// A joint or the whole body leaps within one frame.
+    Jump,
+    /// The standing feet are above the height Y = 0 that files take for the floor.
+    FloatingFeet,
+    /// The standing feet are below Y = 0.
+    FeetUnderFloor,
+    /// A foot slides while it stands.
+    FootSkate,
+    /// A bone between two parts has no length.
+    ZeroLengthBone,
+}
+
+/// Something wrong with a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Defect {
+    /// What kind of thing.
+    pub kind: DefectKind,
+    /// First and last frame of it, from 0; `None` when it concerns the whole clip.
+    pub frames: Option<(usize, usize)>,
+    /// The joint, where it is one.
+    pub joint: Option<usize>,
+    /// What, where and how much, for people.
+    pub text: String,
+}
+
+/// Frozen frames shorter than this are how people stand still \[s\]; also one pose to the bit.
+const FROZEN_SECS: f64 = 0.1;
+/// Fastest that a joint turns in its parent: a baseball pitcher's shoulder reaches 130 rad/s, everything else stays below 45.
+const FASTEST_TURN_RAD_S: f64 = 60.0;
+/// Fastest that hips travel: the fastest sprint is 12.4 m/s.
+const FASTEST_TRAVEL_M_S: f64 = 13.0;
+/// Standing feet this far off Y = 0 are worth telling \[m\].
+const OFF_FLOOR_M: f64 = 0.03;
+/// Slide of a foot within one stance that is worth telling \[m\].
+const SKATE_M: f64 = 0.05;
+
+/// The first frame that belongs to the motion: 1 when frame 0 is a rest pose (as in CMU's BVH conversions), otherwise 0.
+///
+/// Frame 0 is one when it differs from frame 1 by more than 10° (root mean square over the joints) and by ten times the largest
+/// step of the frames after it.
+pub fn moves_from(clip: &Clip, humanoid: &Humanoid) -> usize {
+    if clip.frames() < 3 {
+        return 0;
+    }
+    let leap = pose_gap(clip, humanoid, 0, 1);
+    let usual = (1..clip.frames().min(30) - 1).map(|frame| pose_gap(clip, humanoid, frame, frame + 1)).fold(0.0, f64::max);
+    usize::from(leap.to_degrees() > 10.0 && leap > 10.0 * usual)
+}
+
+/// Finds what is wrong with a clip in metres and Y up, in the order of [`DefectKind`].
+pub fn find_defects(clip: &Clip, humanoid: &Humanoid) -> Vec<Defect> {
+    let mut defects = Vec::new();
+    if clip.frames() == 0 {
+        return defects;
+    }
+    let from = moves_from(clip, humanoid);
+    if from == 1 {
+        let gap = pose_gap(clip, humanoid, 0, 1).to_degrees();
+        defects.push(Defect {
+            kind: DefectKind::RestPoseFirst,
+            frames: Some((0, 0)),
+            joint: None,
+            text: format!("frame 0 is a rest pose, {gap:.0}° from frame 1: the motion begins at frame 1"),
+        });
+    }
+    frozen(clip, &mut defects);
+    jumps(clip, humanoid, from, &mut defects);
+    feet(clip, humanoid, from, &mut defects);
+    zero_bones(clip, humanoid, &mut defects);
+    defects
+}
+
+fn frozen(clip: &Clip, defects: &mut Vec<Defect>) {
+    let same = |a: usize, b: usize| {
+        clip.rotations(a) == clip.rotations(b)
+            && clip.moving().iter().all(|&joint| clip.translation(a, joint) == clip.translation(b, joint))
+    };
+    let repeats: Vec<bool> = (0..clip.frames()).map(|frame| frame > 0 && same(frame - 1, frame)).collect();
+    for (first, last) in runs(&repeats) {
+        let frames = last + 2 - first;
+        let secs = frames as f64 * clip.frame_time_secs();
+        if secs >= FROZEN_SECS && frames > 3 {
+            defects.push(Defect {
+                kind: DefectKind::Frozen,
+                frames: Some((first - 1, last)),
+                joint: None,
+                text: format!("frames {} to {last} ({frames} frames, {secs:.2} s) are one pose", first - 1),
+            });
+        }
+    }
+}
+
+fn jumps(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>) {
+    let fps = clip.fps();
+    let name = |joint: usize| &clip.skeleton().joints()[joint].name;
+    let mut world = Vec::new();
+    let mut before = None;
+    for frame in from..clip.frames() {
+        clip.world_into(frame, &mut world);
+        let hips = world[humanoid.hips()].translation;
+        if let Some(before) = before.replace(hips) {
+            let speed = hips.distance(before) * fps;
+            if speed > FASTEST_TRAVEL_M_S {
+                defects.push(Defect {
+                    kind: DefectKind::Jump,
+                    frames: Some((frame - 1, frame)),
+                    joint: Some(humanoid.hips()),
+                    text: format!("the hips leap {:.2} m from frame {} to {frame}", hips.distance(before), frame - 1),
+                });
+            }
+        }
+    }
+    for (part, joint) in humanoid.parts() {
+        let mut usual: Vec<f64> = Vec::with_capacity(clip.frames());
+        for frame in from + 1..clip.frames() {
+            usual.push(clip.rotation(frame - 1, joint).angle_between(clip.rotation(frame, joint)));
+        }
+        for (at, &turn) in usual.iter().enumerate() {
+            // A fast move has fast neighbours, a leap does not.
+            let beside = |other: Option<usize>| other.and_then(|other| usual.get(other)).copied().unwrap_or(0.0);
+            let neighbours = beside(at.checked_sub(1)).max(beside(Some(at + 1)));
+            if turn * fps > FASTEST_TURN_RAD_S || turn.to_degrees() > 20.0 && turn > 6.0 * neighbours {
+                let frame = from + at;
+                let text = format!("{part} ({:?}) turns {:.0}° from frame {frame} to {}", name(joint), turn.to_degrees(), frame + 1);
+                defects.push(Defect { kind: DefectKind::Jump, frames: Some((frame, frame + 1)), joint: Some(joint), text });
+            }
+        }
+    }
+}
+
+fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>) {
+    let floor = floor_height_m(clip, humanoid);
+    if floor > OFF_FLOOR_M {
+        let text = format!("standing feet are {:.0} mm above Y = 0", 1e3 * floor);
+        defects.push(Defect { kind: DefectKind::FloatingFeet, frames: None, joint: None, text });
+    }
+    if floor < -OFF_FLOOR_M {
+        let text = format!("standing feet are {:.0} mm below Y = 0", -1e3 * floor);
+        defects.push(Defect { kind: DefectKind::FeetUnderFloor, frames: None, joint: None, text });
+    }
+    let contacts = contacts(clip, humanoid);
+    let feet = Feet::of(clip, humanoid);
+    for side in [Side::Left, Side::Right] {
+        for (first, last) in contacts.stances(side) {
+            let first = first.max(from);
+            // The point that stands is the one that moves least in the middle half of the stance: while the foot lands and leaves it
+            // rolls.
+            let quarter = last.saturating_sub(first) / 4;
+            let middle = first + quarter..=last.saturating_sub(quarter).max(first + quarter);
+            let slide = |point: &crate::floor::FootPoint| {
+                let level = |frame: usize| glam::DVec2::new(point.positions[frame].x, point.positions[frame].z);
+                middle.clone().map(|frame| level(frame).distance(level(*middle.start()))).fold(0.0, f64::max)
+            };
+            let least = feet.sides[side as usize].iter().map(|point| (slide(point), point.joint)).min_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((slide, joint)) = least.filter(|(slide, _)| *slide > SKATE_M * feet.scale) {
+                let foot = if side == Side::Left { "left" } else { "right" };
+                let text = format!("the {foot} foot slides {:.0} mm while it stands in frames {first} to {last}", 1e3 * slide);
+                defects.push(Defect { kind: DefectKind::FootSkate, frames: Some((first, last)), joint: Some(joint), text });
+            }
+        }
+    }
+}
+
+fn zero_bones(clip: &Clip, humanoid: &Humanoid, defects: &mut Vec<Defect>) {
+    let skeleton = clip.skeleton();
+    let lengths: Vec<f64> = (0..skeleton.len()).map(|joint| clip.translation(clip.frames() / 2, joint).length()).collect();
+    let typical = quantile(lengths.clone(), 0.75).unwrap_or(0.0);
+    for (joint, bone) in skeleton.joints().iter().enumerate() {
+        let Some(parent) = bone.parent else { continue };
+        if lengths[joint] > 1e-4 * typical {
+            continue;
+        }
+        let of = humanoid.part(joint).map(Part::name).map_or(String::new(), |part| format!(" ({part})"));
+        let text = format!("joint {:?}{of} is at the place of its parent {:?}", bone.name, skeleton.joints()[parent].name);
+        defects.push(Defect { kind: DefectKind::ZeroLengthBone, frames: None, joint: Some(joint), text });
+    }
+}
