@@ -26,7 +26,7 @@ struct Parts<'a> {
 }
 
 fn healthy() -> Parts<'static> {
-    let mut bin = floats(&[0.0, 0.1, 0.2]);
+    let mut bin = floats(&[0.0, 0.1, 0.3]);
     bin.extend(floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.6, 0.8, 0.0, 0.0, 0.0, 1.0]));
     let (channels, samplers) = (CHANNELS, SAMPLERS);
     Parts { nodes: NODES, views: VIEWS, accessors: ACCESSORS, channels, samplers, more: "", bin }
@@ -56,7 +56,7 @@ impl Parts<'_> {
 
 #[test]
 fn the_healthy_file_is_read() {
-    assert_eq!(gltf::read_slice(&healthy().glb(), None, &Limits::default()).unwrap().clip.frames(), 7);
+    assert_eq!(gltf::read_slice(&healthy().glb(), None, &Limits::default()).unwrap().clip.frames(), 10);
 }
 
 #[test]
@@ -259,6 +259,7 @@ proptest! {
             let at = at.index(glb.len());
             glb[at] = byte;
         }
+        gltf::fuzz(&glb);
         if let Ok(parsed) = gltf::read_slice(&glb, None, &tight()) {
             prop_assert_eq!(parsed.clip.first_non_finite(), None);
             for frame in 0..parsed.clip.frames() {

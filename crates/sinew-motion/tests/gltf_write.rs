@@ -60,7 +60,7 @@ fn read(file: &[u8]) -> Clip {
 
 /// The binary chunk of a GLB.
 fn bin(file: &[u8]) -> Vec<u8> {
-    gltf::Glb::from_slice(file).unwrap().bin.expect("a binary chunk").into_owned()
+    gltf::Glb::from_slice(file).expect("a GLB").bin.expect("a binary chunk").into_owned()
 }
 
 #[test]

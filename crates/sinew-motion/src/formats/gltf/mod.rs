@@ -13,9 +13,11 @@
 mod animation;
 mod append;
 mod capsule;
+mod companions;
 mod container;
 mod data;
 mod document;
+mod fuzz;
 mod keys;
 mod reader;
 mod rewrite;
@@ -27,6 +29,7 @@ mod uri;
 mod writer;
 
 pub use document::GltfDocument;
+pub use fuzz::fuzz;
 pub use reader::{read, read_slice};
 pub use writer::write;
 

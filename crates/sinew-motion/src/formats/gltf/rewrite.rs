@@ -6,7 +6,7 @@ use super::data::Data;
 use super::document::GltfDocument;
 use super::schema::Root;
 use super::writer::{to_json, too_large};
-use super::{element, keys, reader, rig, uri};
+use super::{companions, element, keys, reader, rig, uri};
 use crate::formats::{Format, Source};
 use crate::{Clip, Error, Limits};
 use serde_json::{Map, Value, json};
@@ -49,10 +49,21 @@ pub(super) fn rewrite(
     let root = reader::parse(&container)?;
     let mut file: Map<String, Value> =
         serde_json::from_slice(container.json).map_err(|error| element("JSON", error.to_string(), BUG))?;
-    let (mut append, buffers) = buffers(&mut file, &container, &root, document, format)?;
+    let limits = Limits::default();
+    let data = Data::new(&root, container.bin, document.folder.as_deref(), &limits);
+    let (mut append, buffers) = buffers(&mut file, &container, &root, &data, format)?;
     append.views_before = root.buffer_views.len();
     append.accessors_before = root.accessors.len();
-    replace(&mut file, &mut append, &root, clip, source, document, &changes, retimed)?;
+    let edit = Edit { root: &root, clip, source, document, retimed };
+    let times = edit.replace(&mut file, &mut append, &changes)?;
+    if let (true, Some(input)) = (retimed, times) {
+        let frame_secs = source.clip.frame_time_secs();
+        let times: Vec<f64> = source.rows.iter().map(|&row| document.start_secs + row as f64 * frame_secs).collect();
+        if times.len() == clip.frames() {
+            let joints = document.nodes().collect();
+            companions::retime(&mut file, &mut append, &root, &data, &joints, input, &times)?;
+        }
+    }
     list(&mut file, "bufferViews")?.append(&mut append.views);
     list(&mut file, "accessors")?.append(&mut append.accessors);
     for key in ["bufferViews", "accessors"] {
@@ -97,12 +108,10 @@ fn buffers(
     file: &mut Map<String, Value>,
     container: &Container<'_>,
     root: &Root,
-    document: &GltfDocument,
+    data: &Data<'_>,
     format: Format,
 ) -> Result<(Append, Buffers), Error> {
     let first_is_chunk = container.bin.is_some() && root.buffers.first().is_some_and(|buffer| buffer.uri.is_none());
-    let limits = Limits::default();
-    let data = Data::new(root, container.bin, document.folder.as_deref(), &limits);
     if first_is_chunk {
         let bytes = data.buffer(0, "buffers")?.to_vec();
         return Ok((Append { bytes, ..Append::default() }, Buffers::First));
@@ -150,51 +159,57 @@ fn changes(clip: &Clip, source: &Source<'_>) -> Vec<Change> {
     changes
 }
 
-/// Replaces the channels of the joints that changed; of all that have any, where the frames' times changed.
-#[allow(clippy::too_many_arguments, reason = "one step of the job, split off for its length")]
-fn replace(
-    file: &mut Map<String, Value>,
-    append: &mut Append,
-    root: &Root,
-    clip: &Clip,
-    source: &Source<'_>,
-    document: &GltfDocument,
-    changes: &[Change],
+/// What is to be put into the file.
+struct Edit<'a> {
+    root: &'a Root,
+    clip: &'a Clip,
+    source: &'a Source<'a>,
+    document: &'a GltfDocument,
+    /// Whether the frames are at other times than the file's, or others.
     retimed: bool,
-) -> Result<(), Error> {
-    let times = keys::times(clip, document.start_secs)?;
-    let mut input = None;
-    for (joint, (change, at)) in changes.iter().zip(&document.joints).enumerate() {
-        let is_root = clip.skeleton().joints()[joint].parent.is_none();
-        let local = |frame: usize| source.space.to_source(clip.local(frame, joint), is_root);
-        let unscaled = |frame: usize| {
-            let scale = at.offset_scale;
-            let inverse = scale.map(|scale| if scale == 0.0 { 0.0 } else { 1.0 / scale });
-            local(frame).translation * inverse
-        };
-        let mut add = |path: &str, shape: &str, values: Vec<f32>, append: &mut Append| -> Result<(), Error> {
-            let input = *input.get_or_insert_with(|| append.floats("SCALAR", &times, true, None));
-            let output = append.floats(shape, &values, false, None);
-            take_matrix_apart(file, root, at.node)?;
-            set_channel(file, at.node, path, input, output)
-        };
-        if change.rotation || retimed && has_channel(root, at.node, "rotation") {
-            add("rotation", "VEC4", keys::rotations(clip, |frame| local(frame).rotation), append)?;
-        }
-        let has_channel = has_channel(root, at.node, "translation");
-        if !(change.translation || retimed && has_channel) {
-            continue;
-        }
-        if has_channel || clip.moving().binary_search(&joint).is_ok() {
-            add("translation", "VEC3", keys::translations(clip, unscaled), append)?;
-        } else if clip.frames() > 0 {
-            take_matrix_apart(file, root, at.node)?;
-            if let Some(node) = list(file, "nodes")?.get_mut(at.node) {
-                node["translation"] = json!(unscaled(0).as_vec3().to_array());
+}
+
+impl Edit<'_> {
+    /// Replaces the channels of the joints that changed; of all that have any, where the frames' times changed.
+    /// Returns the accessor of the new keys' times, if there are new keys.
+    fn replace(
+        &self,
+        file: &mut Map<String, Value>,
+        append: &mut Append,
+        changes: &[Change],
+    ) -> Result<Option<usize>, Error> {
+        let Edit { root, clip, source, document, retimed } = *self;
+        let times = keys::times(clip, document.start_secs)?;
+        let mut input = None;
+        for (joint, (change, at)) in changes.iter().zip(&document.joints).enumerate() {
+            let is_root = clip.skeleton().joints()[joint].parent.is_none();
+            let local = |frame: usize| source.space.to_source(clip.local(frame, joint), is_root);
+            let inverse = at.offset_scale.map(|scale| if scale == 0.0 { 0.0 } else { 1.0 / scale });
+            let unscaled = |frame: usize| local(frame).translation * inverse;
+            let mut add = |path: &str, shape: &str, values: Vec<f32>, append: &mut Append| -> Result<(), Error> {
+                let input = *input.get_or_insert_with(|| append.floats("SCALAR", &times, true, None));
+                let output = append.floats(shape, &values, false, None);
+                take_matrix_apart(file, root, at.node)?;
+                set_channel(file, at.node, path, input, output)
+            };
+            if change.rotation || retimed && has_channel(root, at.node, "rotation") {
+                add("rotation", "VEC4", keys::rotations(clip, |frame| local(frame).rotation), append)?;
+            }
+            let has_channel = has_channel(root, at.node, "translation");
+            if !(change.translation || retimed && has_channel) {
+                continue;
+            }
+            if has_channel || clip.moving().binary_search(&joint).is_ok() {
+                add("translation", "VEC3", keys::translations(clip, unscaled), append)?;
+            } else {
+                take_matrix_apart(file, root, at.node)?;
+                if let Some(node) = list(file, "nodes")?.get_mut(at.node) {
+                    node["translation"] = json!(unscaled(0).as_vec3().to_array());
+                }
             }
         }
+        Ok(input)
     }
-    Ok(())
 }
 
 fn has_channel(root: &Root, node: usize, path: &str) -> bool {
@@ -216,7 +231,7 @@ fn take_matrix_apart(file: &mut Map<String, Value>, root: &Root, index: usize) -
 }
 
 /// Points a channel of the first animation at new keys; a sampler that other channels share is left to them.
-fn set_channel(
+pub(super) fn set_channel(
     file: &mut Map<String, Value>,
     node: usize,
     path: &str,

@@ -13,7 +13,8 @@ use std::io::Write;
 ///
 /// A clip that was read from a glTF file becomes that file again: everything in it stays but the rotations (and the
 /// translations of moving joints) of the joints that changed, which are replaced in its first animation. Nothing
-/// changed and the same format means the same bytes. Textures in other files stay named, not copied; buffers in other
+/// changed and the same format means the same bytes. Where frames were cut or the rate changed, scales and what else
+/// the animation moves are sampled again with the joints; only the weights of morph targets keep their times. Textures in other files stay named, not copied; buffers in other
 /// files go into a `.glb`, and stay named in a `.gltf`.
 ///
 /// Any other clip becomes a new file: one node per joint, one skin, one animation, and a mesh of the `body` shapes.
