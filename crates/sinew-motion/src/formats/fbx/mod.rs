@@ -90,3 +90,15 @@ fn whole(problem: impl Into<String>, remedy: &str) -> Error {
 fn at_node(name: &str, problem: impl Into<String>, remedy: &str) -> Error {
     Error::new(Place::Element(format!("node {name:?}")), problem, remedy)
 }
+
+/// Reads any bytes as FBX under tight limits; what is read is finite. What the fuzz target `fbx` calls.
+///
+/// # Panics
+/// If that does not hold.
+#[doc(hidden)]
+pub fn fuzz(bytes: &[u8]) {
+    let limits = Limits { file_bytes: 1 << 21, joints: 200, depth: 32, frames: 500, values: 200_000, name_bytes: 128 };
+    if let Ok(parsed) = read(bytes, &limits) {
+        assert_eq!(parsed.clip.first_non_finite(), None, "what is read is finite");
+    }
+}

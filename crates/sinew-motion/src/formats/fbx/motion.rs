@@ -143,7 +143,7 @@ fn span(scene: &ufbx::Scene, limits: &Limits) -> Result<Span, Error> {
     }
     let (begin, end) = (stack.time_begin.max(first), stack.time_end.min(last));
     let (begin, end) = if begin < end { (begin, end) } else { (first, last) };
-    let hz = rate_hz(tracks.iter().map(Vec::as_slice)).unwrap_or(file_hz);
+    let hz = rate_hz(tracks.iter().map(Vec::as_slice), true).unwrap_or(file_hz);
     let length_secs = end - begin;
     let frames = (length_secs * hz - 0.01).ceil().max(0.0) + 1.0;
     let densest = tracks.iter().map(Vec::len).max().unwrap_or(0);

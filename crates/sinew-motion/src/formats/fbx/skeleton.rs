@@ -74,10 +74,10 @@ fn mark_animated(scene: &ufbx::Scene, member: &mut [bool]) {
     for layer in &stack.layers {
         for property in &layer.anim_props {
             let element: &ufbx::Element = &property.element;
-            if element.type_ == ufbx::ElementType::Node {
-                if let Some(slot) = member.get_mut(element.typed_id as usize) {
-                    *slot = true;
-                }
+            if element.type_ == ufbx::ElementType::Node
+                && let Some(slot) = member.get_mut(element.typed_id as usize)
+            {
+                *slot = true;
             }
         }
     }

@@ -11,18 +11,27 @@
 //! for oddities in parts that have nothing to do with motion.
 
 mod animation;
+mod append;
+mod capsule;
+mod companions;
 mod container;
 mod data;
 mod document;
+mod fuzz;
+mod keys;
 mod reader;
+mod rewrite;
 mod rig;
 mod schema;
 mod track;
 mod tree;
 mod uri;
+mod writer;
 
 pub use document::GltfDocument;
+pub use fuzz::fuzz;
 pub use reader::{read, read_slice};
+pub use writer::write;
 
 use crate::{Error, Place};
 

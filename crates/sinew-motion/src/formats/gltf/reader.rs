@@ -6,6 +6,7 @@ use super::data::Data;
 use super::document::GltfDocument;
 use super::rig::{self, Rig};
 use super::schema::Root;
+use super::track::Interpolation;
 use super::{element, tree, uri};
 use crate::formats::rate::rate_hz;
 use crate::formats::{Document, Parsed};
@@ -153,10 +154,12 @@ fn sample(
             }
         }
     });
-    let times = || {
+    let keyed = || {
         let keyed = of_joint.iter().flat_map(|tracks| [&tracks.rotation, &tracks.translation, &tracks.scale]);
-        keyed.flatten().map(|track| track.times_secs.as_slice())
+        keyed.flatten()
     };
+    let times = || keyed().map(|track| track.times_secs.as_slice());
+    let curved = keyed().any(|track| track.interpolation == Interpolation::CubicSpline);
     let start_secs = times().map(|times| times[0]).fold(f64::INFINITY, f64::min);
     let end_secs = times().map(|times| times[times.len() - 1]).fold(f64::NEG_INFINITY, f64::max);
     let is_still = !start_secs.is_finite();
@@ -164,7 +167,7 @@ fn sample(
         notes.push(Note::new("no animation moves the skeleton: the clip is one frame of its rest pose"));
     }
     let (start_secs, length_secs) = if is_still { (0.0, 0.0) } else { (start_secs, end_secs - start_secs) };
-    let hz = rate_hz(times()).unwrap_or(DEFAULT_HZ);
+    let hz = rate_hz(times(), curved).unwrap_or(DEFAULT_HZ);
     // A last key within a hundredth of a frame is on it; beyond that, one more frame holds the last pose.
     let frames = (length_secs * hz - 0.01).ceil().max(0.0) + 1.0;
     let densest = times().map(<[f64]>::len).max().unwrap_or(1);

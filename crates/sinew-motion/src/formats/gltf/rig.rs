@@ -33,19 +33,13 @@ pub(super) struct Rig {
     pub joints: Vec<JointNode>,
 }
 
-/// A node's transform, taken apart.
-struct Local {
-    rigid: Transform,
-    scale: DVec3,
-}
-
 /// Which nodes the skeleton is made of: the joints, and of the nodes above them those that turn, move or are
 /// animated. A node that only scales is folded into what it scales.
 pub(super) fn members(root: &Root, tree: &Tree, joints: &[bool], animated: &[bool]) -> Result<Vec<bool>, Error> {
     let mut members = tree.at_or_above(joints);
     for (index, member) in members.iter_mut().enumerate() {
         if *member && !joints[index] && !animated[index] {
-            let local = local(&root.nodes[index], index, &mut Vec::new())?.rigid;
+            let (local, _) = local(&root.nodes[index], index, &mut Vec::new())?;
             let turn = DVec3::new(local.rotation.x, local.rotation.y, local.rotation.z).length();
             *member = turn > NO_TRANSFORM || local.translation.length() > NO_TRANSFORM;
         }
@@ -76,10 +70,10 @@ pub(super) fn rig(
     let mut scaled = 0;
     for &index in tree.order.iter().filter(|&&index| above[index]) {
         let node = &root.nodes[index];
-        let mut local = local(node, index, notes)?;
+        let (rigid, mut scale) = local(node, index, notes)?;
         if let Some(track) = tracks.get(&index).and_then(|tracks| tracks.scale.as_ref()) {
             if track.spread() <= SAME_SCALE * track.key(0).length() {
-                local.scale = track.key(0).truncate();
+                scale = track.key(0).truncate();
             } else {
                 notes.push(Note::new(format!("the animated scale of {} is left out", joint_name(node, index))));
             }
@@ -88,14 +82,14 @@ pub(super) fn rig(
         let offset_scale = parent.map_or(DVec3::ONE, |parent| scale_at[parent]);
         joint_at[index] = parent.and_then(|parent| joint_at[parent]);
         depth_at[index] = parent.map_or(0, |parent| depth_at[parent]);
-        if (local.scale - DVec3::ONE).abs().max_element() > SAME_SCALE {
+        if (scale - DVec3::ONE).abs().max_element() > SAME_SCALE {
             scaled += 1;
         }
         scale_at[index] = if members[index] {
             // Below a rotation only a uniform scale stays diagonal.
-            local.scale * uniform(offset_scale)
+            scale * uniform(offset_scale)
         } else {
-            local.scale * offset_scale
+            scale * offset_scale
         };
         let size = scale_at[index].abs();
         if size.max_element() - size.min_element() > SAME_SCALE * size.max_element() {
@@ -116,7 +110,7 @@ pub(super) fn rig(
             let problem = format!("a name of {} bytes, more than the {} allowed", name.len(), limits.name_bytes);
             return Err(element(format!("nodes[{index}].name"), problem, "shorten the name"));
         }
-        let rest = Transform::new(local.rigid.rotation, local.rigid.translation * offset_scale);
+        let rest = Transform::new(rigid.rotation, rigid.translation * offset_scale);
         let tip = tip(root, index, members, scale_at[index]);
         joint_at[index] = Some(rig.skeleton.push(Joint { name, parent: joint_at[index], rest, tip }));
         rig.joints.push(JointNode { node: index, offset_scale });
@@ -153,7 +147,8 @@ fn uniform(scale: DVec3) -> DVec3 {
     DVec3::splat(libm::cbrt((scale.x * scale.y * scale.z).abs()))
 }
 
-fn local(node: &Node, index: usize, notes: &mut Vec<Note>) -> Result<Local, Error> {
+/// A node's transform, taken apart into `parent_from_node` without scale, and scale.
+pub(super) fn local(node: &Node, index: usize, notes: &mut Vec<Note>) -> Result<(Transform, DVec3), Error> {
     let name = |field: &str| format!("nodes[{index}].{field}");
     if let Some(matrix) = node.matrix {
         return from_matrix(&matrix, index, notes);
@@ -174,12 +169,12 @@ fn local(node: &Node, index: usize, notes: &mut Vec<Note>) -> Result<Local, Erro
         let problem = format!("the rotation has length {length}, not 1");
         return Err(element(name("rotation"), problem, "export again with unit quaternions"));
     }
-    Ok(Local { rigid: Transform::new(rotation.normalize(), translation), scale })
+    Ok((Transform::new(rotation.normalize(), translation), scale))
 }
 
 /// Rotation, translation and scale of a matrix, by Gram-Schmidt; a mirror image becomes a negative z scale,
 /// which is exact for what hangs directly below.
-fn from_matrix(matrix: &[f64; 16], index: usize, notes: &mut Vec<Note>) -> Result<Local, Error> {
+fn from_matrix(matrix: &[f64; 16], index: usize, notes: &mut Vec<Note>) -> Result<(Transform, DVec3), Error> {
     let wrong = |problem: &str| {
         Err(element(format!("nodes[{index}].matrix"), problem, "export the node's translation, rotation and scale"))
     };
@@ -209,5 +204,5 @@ fn from_matrix(matrix: &[f64; 16], index: usize, notes: &mut Vec<Note>) -> Resul
     if !rigid.rotation.is_finite() || !scale.is_finite() {
         return wrong("it cannot be taken apart");
     }
-    Ok(Local { rigid, scale })
+    Ok((rigid, scale))
 }
