@@ -63,9 +63,9 @@ impl Arrow {
 
     fn write(&self, canvas: &mut Canvas, root: Spot, above: bool, unit: f32, taken: &mut Vec<[f32; 4]>) {
         let font = Type::strong(14.0 * unit, ARROW);
-        let text = font.fit(&self.text(), canvas.width() - 8.0 * unit);
+        let text = font.fit(&self.text(), canvas.width() - 14.0 * unit);
         let half = font.width(&text) / 2.0;
-        let x = root.0.max(half + 4.0 * unit).min(canvas.width() - half - 4.0 * unit);
+        let x = root.0.max(half + 7.0 * unit).min(canvas.width() - half - 7.0 * unit);
         let line = 16.0 * unit;
         let mut y = if above { root.1 - 7.0 * unit } else { root.1 + line };
         for _ in 0..8 {

@@ -3,7 +3,7 @@
 use crate::canvas::{Canvas, Spot};
 use crate::colour::{ARROW, HAIRLINE, INK, INK_SOFT, PAPER};
 use crate::limits::{MAX_MARKS, MAX_PLOT_VALUE, MAX_SERIES};
-use crate::strip::{head_height, paint_head};
+use crate::strip::head_height;
 use crate::text::{Anchor, Type};
 use crate::ticks::{Ticks, widened};
 use crate::{Colour, Limit, Mark, PALETTE, Plot, Series};
@@ -114,8 +114,9 @@ impl<'a> Chart<'a> {
     }
 
     pub fn paint(&self, canvas: &mut Canvas, top: f32) {
-        // Lines are drawn on a sheet of their own, so that the field's edges clip them.
-        paint_head(canvas, top, &self.plot.title, "", self.unit, self.width - 24.0 * self.unit);
+        let font = Type::strong(19.0 * self.unit, INK);
+        let title = font.fit(self.plot.title.trim(), self.width - 48.0 * self.unit);
+        canvas.text((24.0 * self.unit, top + 34.0 * self.unit), Anchor::Start, font, &title);
         self.paint_grid(canvas, top);
         self.paint_marks(canvas, top);
         self.paint_limits(canvas, top);

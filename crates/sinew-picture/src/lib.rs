@@ -5,6 +5,7 @@ mod camera;
 mod canvas;
 mod chart;
 mod colour;
+mod cone;
 mod error;
 mod figure;
 mod filmstrip;

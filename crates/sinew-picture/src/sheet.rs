@@ -74,7 +74,14 @@ enum Laid<'a> {
     Chart(Chart<'a>),
 }
 
-impl Laid<'_> {
+impl<'a> Laid<'a> {
+    fn new(piece: &'a Piece, width: f32) -> Laid<'a> {
+        match piece {
+            Piece::Filmstrip(strip) => Laid::Strip(strip::Layout::new(strip, width)),
+            Piece::Plot(plot) => Laid::Chart(Chart::new(plot, width)),
+        }
+    }
+
     fn height(&self) -> f32 {
         match self {
             Laid::Strip(strip) => strip.height(),
@@ -91,11 +98,7 @@ impl Sheet {
     pub fn draw(&self) -> Result<Pixmap, Error> {
         let width = self.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
         let unit = width as f32 / 1800.0;
-        let lay = |piece| match piece {
-            &Piece::Filmstrip(ref strip) => Laid::Strip(strip::Layout::new(strip, width as f32)),
-            Piece::Plot(plot) => Laid::Chart(Chart::new(plot, width as f32)),
-        };
-        let laid: Vec<Laid> = self.pieces.iter().take(MAX_PIECES).map(lay).collect();
+        let laid: Vec<Laid> = self.pieces.iter().take(MAX_PIECES).map(|piece| Laid::new(piece, width as f32)).collect();
         let headed = !(self.title.trim().is_empty() && self.subtitle.trim().is_empty());
         let head = if headed { strip::head_height(&self.title, &self.subtitle, false, unit) } else { 0.0 };
         let foot = (44.0 * unit).ceil();

@@ -128,7 +128,7 @@ impl<'a> Layout<'a> {
             let (x, y) = self.corner(index);
             let y = y + top.round();
             let picture = self.paint_panel(panel, &mut painter)?;
-            canvas.paste(x as i32, y as i32, &picture);
+            canvas.paste(x as usize, y as usize, &picture);
             self.paint_words(canvas, panel, x, y + self.panel_height);
         }
         if self.panels().is_empty() {
@@ -243,7 +243,7 @@ pub(crate) fn paint_head(canvas: &mut Canvas, top: f32, title: &str, subtitle: &
     let left = MARGIN * unit;
     let mut y = top + 16.0 * unit;
     if !title.trim().is_empty() {
-        let font = Type::strong(25.0 * unit, INK);
+        let font = Type::strong(24.0 * unit, INK);
         canvas.text((left, y + 26.0 * unit), Anchor::Start, font, &font.fit(title.trim(), right - left));
         y += 34.0 * unit;
     }
