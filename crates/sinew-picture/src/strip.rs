@@ -150,7 +150,7 @@ impl<'a> Layout<'a> {
         painter.paint(&mut canvas, &lens.solids(&panel.figure), &self.body_look());
         canvas.rect(0.0, self.ruler, self.panel_width, self.panel_height - self.ruler, Colour::hex(0xFFFFFF));
         floor::ruler(&mut canvas, &lens, self.ruler, unit);
-        let mut taken = Vec::new();
+        let mut taken: Vec<[f32; 4]> = arrows(panel).map(|arrow| arrow.tip_box(&lens, unit)).collect();
         for arrow in arrows(panel) {
             arrow.paint(&mut canvas, &lens, self.strongest_n, unit, &mut taken);
         }
