@@ -40,7 +40,7 @@ pub(crate) struct Look {
     pub edge_jump_px: f32,
     /// What far limbs fade to.
     pub haze: Colour,
-    /// Below this the body is under the floor and shows faintly: a point's `y + slope · z` against `level` \[px\].
+    /// What lies below it shows faintly; `None` shows all alike.
     pub floor: Option<Floor>,
 }
 
@@ -104,6 +104,7 @@ impl Painter {
             let (first, last) = ((low - 0.5).ceil().max(0.0), (high - 0.5).floor().min(size as f32 - 1.0));
             (first <= last).then_some((first as usize, last as usize))
         };
+        let nearest = cone.nearest();
         let (low, high) = cone.rows();
         let (top, bottom) = clip(-high, -low, self.height)?;
         let mut touched: Option<Span> = None;
@@ -115,8 +116,11 @@ impl Painter {
             let span = Span { left, right, top: row, bottom: row };
             touched = Some(touched.map_or(span, |touched| touched.with(span)));
             for column in left..=right {
-                let Some(depth) = cone.depth(column as f32 + 0.5, y) else { continue };
                 let at = row * self.width + column;
+                if self.depth[at] >= nearest {
+                    continue;
+                }
+                let Some(depth) = cone.depth(column as f32 + 0.5, y) else { continue };
                 if depth > self.depth[at] {
                     self.depth[at] = depth;
                     self.surface[at] = index;
@@ -274,7 +278,10 @@ impl<'a> Scene<'a> {
         };
         let depths = solids.iter().flat_map(|solid| [solid.from.z * scale, solid.to.z * scale]);
         let (far, near) = depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
-        Scene { look, cones: solids.iter().take(usize::from(u16::MAX)).filter_map(cone).collect(), far, near }
+        let mut cones: Vec<(Cone, [f32; 3])> = solids.iter().take(usize::from(u16::MAX)).filter_map(cone).collect();
+        // The nearest first: most of what lies behind is then passed over without a look.
+        cones.sort_by(|a, b| b.0.nearest().total_cmp(&a.0.nearest()));
+        Scene { look, cones, far, near }
     }
 
     /// Colour of a capsule at a sample.

@@ -44,6 +44,11 @@ impl Cone {
         Some(Cone { from, to, radius_from, radius_to, side })
     }
 
+    /// Depth of its point nearest to the viewer.
+    pub fn nearest(&self) -> f32 {
+        (self.from.z + self.radius_from).max(self.to.z + self.radius_to)
+    }
+
     /// Lowest and highest y that it covers.
     pub fn rows(&self) -> (f32, f32) {
         let low = (self.from.y - self.radius_from).min(self.to.y - self.radius_to);

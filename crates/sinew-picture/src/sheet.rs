@@ -88,6 +88,13 @@ impl<'a> Laid<'a> {
             Laid::Chart(chart) => chart.height(),
         }
     }
+
+    fn draw(&self) -> Result<Canvas, Error> {
+        match self {
+            Laid::Strip(strip) => strip.draw(),
+            Laid::Chart(chart) => chart.draw(),
+        }
+    }
 }
 
 impl Sheet {
@@ -104,16 +111,13 @@ impl Sheet {
         let foot = (44.0 * unit).ceil();
         let height = head + foot + laid.iter().map(Laid::height).sum::<f32>();
         let mut canvas = Canvas::new(width, height.ceil().min(MAX_HEIGHT_PX as f32) as u32, PAPER)?;
-        paint_head(&mut canvas, 0.0, &self.title, &self.subtitle, unit, width as f32 - 24.0 * unit);
+        paint_head(&mut canvas, &self.title, &self.subtitle, unit, width as f32 - 24.0 * unit);
         let mut top = head;
         for piece in &laid {
             if top >= canvas.height() {
                 break;
             }
-            match piece {
-                Laid::Strip(strip) => strip.paint(&mut canvas, top)?,
-                Laid::Chart(chart) => chart.paint(&mut canvas, top),
-            }
+            canvas.paste(0, top as usize, &piece.draw()?);
             top += piece.height();
         }
         self.paint_footer(&mut canvas, unit);
