@@ -7,11 +7,15 @@
 
 mod clip;
 mod error;
+mod humanoid;
 mod limits;
 mod note;
 mod part;
+mod pose;
 mod skeleton;
 mod space;
+mod space_guess;
+mod stature;
 mod transform;
 
 #[cfg(feature = "formats")]
@@ -19,9 +23,12 @@ pub mod formats;
 
 pub use clip::Clip;
 pub use error::{Error, Place};
+pub use humanoid::{Humanoid, Origin};
 pub use limits::Limits;
 pub use note::Note;
 pub use part::{Part, Side};
 pub use skeleton::{Joint, Skeleton};
 pub use space::SourceSpace;
+pub use space_guess::{SpaceGuess, UnitCandidate, guess_space};
+pub use stature::stature;
 pub use transform::Transform;

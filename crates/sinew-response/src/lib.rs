@@ -1,1 +1,49 @@
-//! placeholder
+//! A motion answers to pushes: dynamics in near-unactuated coordinates.
+//!
+//! The method of Y. Ye and C. K. Liu, *Animating Responsive Characters with Dynamic Constraints in Near-Unactuated
+//! Coordinates* (2008), made to hold on real motion. Once per clip, inverse dynamics finds the torques that the motion
+//! uses ([`torques`]); the directions in which it uses least are its near-unactuated coordinates ([`Basis`]). Per frame,
+//! one small optimisation ([`Response::step`]) finds the next pose of the upper body: it obeys the equations of motion in
+//! those coordinates and follows the motion in all others. So a pushed character yields where its own motion is slack
+//! and recovers in its own style; there are no gains to tune and there is no simulator.
+//!
+//! ```
+//! use sinew_body::humanoid::{Body, Node, Pose};
+//! use sinew_response::{Basis, PointForce, Response, Settings};
+//! use glam::DVec3;
+//!
+//! // A body that stands still; an engine hands over the pose of its animation each frame.
+//! let body = Body::standard(80.0, 1.7);
+//! let standing = vec![Pose::STANDING; 60];
+//! let settings = Settings::default();
+//! let basis = Basis::of_motion(&body, &standing, &settings)?;
+//! let mut response = Response::new(body, basis, settings, &Pose::STANDING);
+//!
+//! let push = PointForce::at_centre(Node::LeftHand, DVec3::new(0.0, 0.0, -100.0));
+//! for frame in 0..30 {
+//!     let forces = if frame < 6 { &[push][..] } else { &[] };
+//!     let pose = response.step(&Pose::STANDING, forces);
+//!     assert!(pose.is_finite());
+//! }
+//! assert!(response.deviation().turns[Node::LeftUpperArm.index()].length() > 0.05);
+//! # Ok::<(), sinew_response::BasisError>(())
+//! ```
+//!
+//! This crate knows nothing of worlds, engines or files.
+
+mod basis;
+mod force;
+mod hips;
+mod inertia;
+mod objective;
+mod response;
+mod settings;
+mod solve;
+mod torque;
+mod upper_body;
+
+pub use basis::{Basis, BasisError};
+pub use force::PointForce;
+pub use response::{Report, Response};
+pub use settings::{Coordinates, Preset, Settings};
+pub use torque::torques;

@@ -67,6 +67,8 @@ pub struct Parsed {
 pub enum Document {
     /// Nothing is kept: the file can only be written anew.
     None,
+    /// A glTF file: its meshes, materials and other nodes stay, its first animation is replaced.
+    Gltf(Box<super::gltf::GltfDocument>),
 }
 
 /// What a writer is given.

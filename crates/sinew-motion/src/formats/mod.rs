@@ -3,6 +3,11 @@
 //! A reader turns bytes into a [`Parsed`]: the motion in the file's own units and axes, and a [`Document`] that
 //! remembers the file well enough to write it again with nothing changed but what the user asked for.
 
+mod body_shape;
 mod document;
+pub mod fbx;
+pub mod gltf;
+mod rate;
 
+pub use body_shape::BodyShape;
 pub use document::{Document, Format, Parsed, Source, WriteJob};

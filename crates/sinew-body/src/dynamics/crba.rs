@@ -1,0 +1,67 @@
+//! The joint-space inertia matrix by the composite-rigid-body algorithm (Walker, Orin 1982; Featherstone 2008, 6.2).
+//!
+//! Everything beyond a joint, frozen, is one rigid body. Its momentum per unit speed of the joint, seen by the axes of
+//! the joints on the way to the base, is that joint's column of M.
+
+use super::kinematics::{place_base, place_still, world_axes, world_inertia};
+use super::tree::Node;
+use super::{Axes, Base, Inertia, MassMatrix, Real, State, Tree, Workspace, Wrench};
+
+/// The joint-space inertia matrix. Of the base and the state only the pose is read.
+///
+/// # Panics
+/// If anything has been made for another tree.
+pub fn crba<S: Real>(
+    tree: &Tree<S>,
+    base: &Base<S>,
+    state: &State<S>,
+    workspace: &mut Workspace<S>,
+    mass: &mut MassMatrix<S>,
+) {
+    workspace.check(tree);
+    assert_eq!(state.motions.len(), tree.nodes.len(), "one motion per link");
+    assert_eq!(mass.dofs(), tree.dofs(), "a matrix of the tree's degrees of freedom");
+    let Workspace { links, inertias, axes, .. } = workspace;
+    links.reference = place_base(tree, base, state, &mut links.placed[0]);
+    inertias[0] = Inertia::ZERO;
+    for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate() {
+        let parent = links.placed[node.parent_slot];
+        let placed = &mut links.placed[index + 1];
+        place_still(&parent, node, motion, placed);
+        inertias[index + 1] = world_inertia(node, placed);
+        axes[index + 1] = world_axes(node, motion, placed);
+    }
+    for (index, node) in tree.nodes.iter().enumerate().rev() {
+        let composite = inertias[index + 1];
+        fill_rows(&tree.nodes, index, &composite, axes, mass);
+        inertias[node.parent_slot] += composite;
+    }
+}
+
+/// Writes the rows of a link's axes up to and including its own columns.
+#[inline(always)]
+pub(super) fn fill_rows<S: Real>(
+    nodes: &[Node<S>],
+    link: usize,
+    composite: &Inertia<S>,
+    axes: &[Axes<S>],
+    mass: &mut MassMatrix<S>,
+) {
+    let node = &nodes[link];
+    if node.axes == 0 {
+        return;
+    }
+    let momentum = composite.momentum(&axes[link + 1]);
+    for axis in 0..node.axes {
+        let (moment, force) = momentum.axis(axis);
+        let wrench = Wrench { moment, force };
+        let row = node.first_dof + axis;
+        let mut slot = link + 1;
+        while slot != 0 {
+            let above = &nodes[slot - 1];
+            let entries = axes[slot].project(&wrench).to_array();
+            mass.set(row, above.first_dof, &entries[..above.axes]);
+            slot = above.parent_slot;
+        }
+    }
+}

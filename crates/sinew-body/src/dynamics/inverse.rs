@@ -1,0 +1,78 @@
+//! Inverse dynamics and the mass matrix in one pass, for a motion that is prescribed.
+
+use super::crba::fill_rows;
+use super::inertia::newton_euler;
+use super::kinematics::{place, place_base, world_axes, world_mass};
+use super::rnea::{joint_load, take_forces};
+use super::{Base, Inertia, MassMatrix, PointForce, Real, State, Tree, V3, Workspace, Wrench};
+
+/// What [`inverse`] finds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inverse<S> {
+    /// Per degree of freedom the generalised force \[N m or N\].
+    pub tau: Vec<S>,
+    /// Per link all that its joint carries, in the link's axes: the moment about a joint that turns \[N m\], the force
+    /// through one that slides \[N\]. `tau` is its projection on the joint's axes.
+    pub loads: Vec<V3<S>>,
+    /// The joint-space inertia matrix.
+    pub mass: MassMatrix<S>,
+}
+
+impl<S: Real> Inverse<S> {
+    /// Room for a tree.
+    pub fn new(tree: &Tree<S>) -> Inverse<S> {
+        Inverse {
+            tau: vec![S::ZERO; tree.dofs()],
+            loads: vec![V3::ZERO; tree.links().len()],
+            mass: MassMatrix::new(tree),
+        }
+    }
+}
+
+/// [`rnea`](super::rnea()) with the state's accelerations as they stand, and [`crba`](super::crba()), sharing
+/// placement and inertias.
+///
+/// # Panics
+/// If anything has been made for another tree, or a force acts on a link that is not there.
+pub fn inverse<S: Real>(
+    tree: &Tree<S>,
+    base: &Base<S>,
+    state: &State<S>,
+    forces: &[PointForce<S>],
+    workspace: &mut Workspace<S>,
+    out: &mut Inverse<S>,
+) {
+    workspace.check(tree);
+    assert_eq!(state.motions.len(), tree.nodes.len(), "one motion per link");
+    assert!(
+        out.tau.len() == tree.dofs() && out.mass.dofs() == tree.dofs() && out.loads.len() == tree.nodes.len(),
+        "the result was made for another tree"
+    );
+    let Workspace { links, wrenches, inertias, axes, .. } = workspace;
+    links.reference = place_base(tree, base, state, &mut links.placed[0]);
+    wrenches[0] = Wrench::ZERO;
+    inertias[0] = Inertia::ZERO;
+    for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate() {
+        let parent = links.placed[node.parent_slot];
+        let placed = &mut links.placed[index + 1];
+        place(&parent, node, motion, motion.acceleration, placed);
+        let (arm, second) = world_mass(node, placed);
+        let centre = placed.origin + arm;
+        let acceleration = placed.acceleration + placed.gradient * arm;
+        wrenches[index + 1] = newton_euler(node.mass, centre, &second, acceleration, &placed.gradient);
+        inertias[index + 1] = Inertia::new(node.mass, centre, second);
+        axes[index + 1] = world_axes(node, motion, placed);
+    }
+    take_forces(links.reference, forces, wrenches);
+    for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate().rev() {
+        let wrench = wrenches[index + 1];
+        let load = joint_load(node, &links.placed[index + 1], &wrench);
+        let along = (motion.axes * load).to_array();
+        out.loads[index] = load;
+        out.tau[node.first_dof..node.first_dof + node.axes].copy_from_slice(&along[..node.axes]);
+        let composite = inertias[index + 1];
+        fill_rows(&tree.nodes, index, &composite, axes, &mut out.mass);
+        wrenches[node.parent_slot] += wrench;
+        inertias[node.parent_slot] += composite;
+    }
+}

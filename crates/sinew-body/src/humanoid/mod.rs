@@ -1,0 +1,21 @@
+//! The humanoid of the methods: 18 bodies, 42 degrees of freedom.
+
+mod anthropometry;
+mod body;
+mod calibration;
+mod leg;
+mod limit;
+mod node;
+mod overlay;
+mod pose;
+mod reduction;
+mod rotation;
+
+pub use body::{Body, Link, Shape};
+pub use leg::{LegPose, solve_leg};
+pub use limit::{Limit, Swing};
+pub use node::{Axis, Dof, Node, UPPER_DOFS, UPPER_NODES, upper_dofs};
+pub use overlay::{Deviation, Overlay};
+pub use pose::Pose;
+pub use reduction::{Person, Reduction, ReductionError};
+pub use rotation::{exp, log, swing_twist};

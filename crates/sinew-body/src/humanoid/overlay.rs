@@ -1,0 +1,191 @@
+//! The way back: an answer of the 18 bodies, put on the source's own joints.
+//!
+//! What comes back is a *deviation*. Joints that no node moves (fingers, toes, face, twist helpers) keep their own local
+//! rotation; a spine or neck of several joints shares the deviation along its length; both feet stay where the input
+//! has them, in place and orientation, and the legs are bent to reach them. Where there is no deviation nothing is
+//! touched, not even the last bit.
+
+use super::leg::{LegPose, solve_leg};
+use super::rotation::{exp, log};
+use super::{Node, Reduction, UPPER_NODES};
+use glam::{DQuat, DVec3};
+use sinew_motion::Transform;
+
+/// Turns below this \[rad\] and shifts below this \[m\] are no deviation: a hundredth of the last digit that a motion
+/// file prints.
+const NOTHING: f64 = 1e-10;
+
+/// How far a body is from the input at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// The hips' shift in the world \[m of the clip\].
+    pub hips_shift: DVec3,
+    /// The hips' turn: `world_from_hips` is turned by the [`exp`] of this world vector \[rad\].
+    pub hips_turn: DVec3,
+    /// Shift of the ground that the body stands on \[m of the clip\]: hips and feet move with it.
+    pub ground_shift: DVec3,
+    /// Per node of the upper body, a rotation vector in the node's own anatomical frame \[rad\]: the local rotation is the
+    /// input's times its [`exp`]. The hips' entry is unused.
+    pub turns: [DVec3; UPPER_NODES],
+}
+
+impl Deviation {
+    /// The input itself.
+    pub const NONE: Deviation = Deviation {
+        hips_shift: DVec3::ZERO,
+        hips_turn: DVec3::ZERO,
+        ground_shift: DVec3::ZERO,
+        turns: [DVec3::ZERO; UPPER_NODES],
+    };
+
+    /// The deviation that stands at `fraction` between two neighbours in time.
+    pub fn lerp(&self, other: &Deviation, fraction: f64) -> Deviation {
+        let mut turns = self.turns;
+        for (turn, next) in turns.iter_mut().zip(&other.turns) {
+            *turn = turn.lerp(*next, fraction);
+        }
+        Deviation {
+            hips_shift: self.hips_shift.lerp(other.hips_shift, fraction),
+            hips_turn: self.hips_turn.lerp(other.hips_turn, fraction),
+            ground_shift: self.ground_shift.lerp(other.ground_shift, fraction),
+            turns,
+        }
+    }
+}
+
+/// Puts deviations on a skeleton's joints; keeps its scratch, so that applying allocates nothing.
+#[derive(Clone, Debug)]
+pub struct Overlay<'a> {
+    reduction: &'a Reduction,
+    /// Per joint, by what its world orientation turns: `world_from_world`.
+    deltas: Vec<DQuat>,
+    /// Per joint, the node or chain share that sets its delta.
+    roles: Vec<Role>,
+    hips_joint: usize,
+    /// The joint whose translation shifts the body: the hips' nearest ancestor-or-self that may move.
+    mover: usize,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Role {
+    /// Turns with its parent.
+    Follow,
+    Node(usize),
+    /// Carries this share of the chest's turn against the hips.
+    Spine(f64),
+    /// Carries this share of the head's turn against the chest.
+    Neck(f64),
+}
+
+impl<'a> Overlay<'a> {
+    /// An overlay for the skeleton that `reduction` was made for; `moving` are the joints whose translation may change,
+    /// of which the hips or one of its ancestors must be one (else shifts are left out).
+    pub fn new(reduction: &'a Reduction, moving: &[usize]) -> Overlay<'a> {
+        let joints = reduction.parents.len();
+        let mut roles = vec![Role::Follow; joints];
+        for node in Node::ALL {
+            if let Some(carrier) = reduction.carriers[node.index()] {
+                roles[carrier.joint] = Role::Node(node.index());
+            }
+        }
+        for &(joint, share) in &reduction.spine {
+            roles[joint] = Role::Spine(share);
+        }
+        for &(joint, share) in &reduction.neck {
+            roles[joint] = Role::Neck(share);
+        }
+        let hips_joint = reduction.carriers[0].map_or(0, |carrier| carrier.joint);
+        let mut mover = hips_joint;
+        while !moving.contains(&mover)
+            && let Some(parent) = reduction.parents[mover]
+        {
+            mover = parent;
+        }
+        Overlay { reduction, deltas: vec![DQuat::IDENTITY; joints], roles, hips_joint, mover }
+    }
+
+    /// Applies a deviation to one frame: `world` is the input's `world_from_joint`, `changed` is called for each joint
+    /// whose local rotation or translation is no longer the input's, with the new rotation or, for the joint that
+    /// shifts the body, the new translation.
+    pub fn apply(
+        &mut self,
+        world: &[Transform],
+        deviation: &Deviation,
+        mut rotated: impl FnMut(usize, DQuat),
+        mut moved: impl FnMut(usize, DVec3),
+    ) {
+        let turns = self.node_deltas(world, deviation);
+        let hips = turns[Node::Hips.index()];
+        let chest_against_hips = log(hips.conjugate() * turns[Node::Chest.index()]);
+        let chest = turns[Node::Chest.index()];
+        let head_against_chest = log(chest.conjugate() * turns[Node::Head.index()]);
+        for (joint, transform) in world.iter().enumerate() {
+            let parent = self.reduction.parents[joint];
+            let parent_delta = parent.map_or(DQuat::IDENTITY, |parent| self.deltas[parent]);
+            let delta = match self.roles[joint] {
+                Role::Follow => parent_delta,
+                Role::Node(node) => turns[node],
+                Role::Spine(share) => hips * exp(chest_against_hips * share),
+                Role::Neck(share) => chest * exp(head_against_chest * share),
+            };
+            self.deltas[joint] = delta;
+            if log(parent_delta.conjugate() * delta).length() > NOTHING {
+                let new_world = delta * transform.rotation;
+                let new_parent = parent.map_or(DQuat::IDENTITY, |parent| parent_delta * world[parent].rotation);
+                rotated(joint, (new_parent.conjugate() * new_world).normalize());
+            } else {
+                self.deltas[joint] = parent_delta;
+            }
+        }
+        let shift = deviation.hips_shift + deviation.ground_shift;
+        if shift.length() > NOTHING {
+            let parent = self.reduction.parents[self.mover].map(|parent| world[parent]);
+            let parent = parent.unwrap_or(Transform::IDENTITY);
+            let position = world[self.mover].translation + shift;
+            moved(self.mover, parent.inverse().point(position));
+        }
+    }
+
+    /// By what every node's orientation turns in the world.
+    fn node_deltas(&self, world: &[Transform], deviation: &Deviation) -> [DQuat; Node::COUNT] {
+        let reduction = self.reduction;
+        let input = reduction.orientations(world);
+        let mut output = input;
+        let mut deltas = [DQuat::IDENTITY; Node::COUNT];
+        deltas[0] = exp(deviation.hips_turn);
+        output[0] = deltas[0] * input[0];
+        for node in Node::ALL.into_iter().take(UPPER_NODES).skip(1) {
+            let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
+            let turn = deviation.turns[at];
+            if turn.length() <= NOTHING {
+                // Exactly the parent's turn, so that an untouched joint keeps its last bit.
+                deltas[at] = deltas[parent];
+                output[at] = deltas[at] * input[at];
+            } else {
+                output[at] = (output[parent] * (input[parent].conjugate() * input[at]) * exp(turn)).normalize();
+                deltas[at] = (output[at] * input[at].conjugate()).normalize();
+            }
+        }
+        let legs = [
+            (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
+            (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
+        ];
+        for (upper, lower, foot) in legs {
+            let at = |node: Node| reduction.carriers[node.index()].map(|carrier| world[carrier.joint].translation);
+            if let (Some(hip), Some(knee), Some(ankle)) = (at(upper), at(lower), at(foot)) {
+                let knee_axis = input[lower.index()] * DVec3::X;
+                let leg = LegPose { hip, knee, ankle, knee_axis };
+                let centre = world[self.hips_joint].translation;
+                let new_hip = if deviation.hips_turn == DVec3::ZERO && deviation.hips_shift == DVec3::ZERO {
+                    hip
+                } else {
+                    centre + deviation.hips_shift + deltas[0] * (hip - centre)
+                };
+                let (thigh, shank) = solve_leg(&leg, new_hip, ankle);
+                deltas[upper.index()] = thigh;
+                deltas[lower.index()] = shank;
+            }
+        }
+        deltas
+    }
+}

@@ -1,0 +1,255 @@
+//! From any skeleton to the 18 bodies.
+
+use super::anthropometry::{STANDARD_STATURE_M, standard_offset, standard_tip};
+use super::calibration::{self, Samples, position};
+use super::{Body, Node, Pose};
+use glam::{DQuat, DVec3};
+use sinew_motion::{Clip, Humanoid, Part, Transform};
+
+/// Where along the line from the hips to the base of the neck the chest's joint lies: 0.111 of 0.335 m in the
+/// method's tree. Capture skeletons place their spine joints anywhere, some leave one out.
+const CHEST_JOINT_FRACTION: f64 = 0.111 / 0.335;
+
+/// Whom a motion is taken to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Person {
+    /// Mass of the whole body \[kg\].
+    pub mass_kg: f64,
+    /// Standing height \[m\]; `None` takes the skeleton's own.
+    pub height_m: Option<f64>,
+}
+
+impl Default for Person {
+    /// 80 kg, as tall as the skeleton.
+    fn default() -> Person {
+        Person { mass_kg: 80.0, height_m: None }
+    }
+}
+
+/// Why a skeleton cannot be taken for a body.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReductionError {
+    /// The person's mass or height makes no sense.
+    #[error("a body of {mass_kg} kg and {height_m} m is out of range; mass is 1 to 1000 kg, height 0.2 to 10 m")]
+    Person {
+        /// The mass asked for \[kg\].
+        mass_kg: f64,
+        /// The height asked for or measured \[m\].
+        height_m: f64,
+    },
+    /// A bone that must have a length has none.
+    #[error("the {part} has no length in this skeleton; check the mapping that `sinew inspect` prints")]
+    NoLength {
+        /// The part whose bone is too short.
+        part: Part,
+    },
+}
+
+/// Which joint carries a node, and the constant turn between their frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Carrier {
+    pub joint: usize,
+    pub joint_from_node: DQuat,
+}
+
+/// How a source skeleton is seen as the 18 bodies of [`Node`], and the body that it has.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    body: Body,
+    pub(super) carriers: [Option<Carrier>; Node::COUNT],
+    /// Joints between hips and chest with the share of the chest's turn that each carries, the chest's joint last (1).
+    pub(super) spine: Vec<(usize, f64)>,
+    /// Likewise between chest and head.
+    pub(super) neck: Vec<(usize, f64)>,
+    pub(super) parents: Vec<Option<usize>>,
+    body_metres_per_clip_metre: f64,
+}
+
+impl Reduction {
+    /// Looks at a clip's skeleton and its motion, and finds the body in it. `stature_m` is the skeleton's own.
+    ///
+    /// # Errors
+    /// When the person is out of range or a limb has no length.
+    pub fn new(clip: &Clip, humanoid: &Humanoid, stature_m: f64, person: Person) -> Result<Reduction, ReductionError> {
+        let height_m = person.height_m.unwrap_or(stature_m);
+        let in_range = (1.0..=1000.0).contains(&person.mass_kg)
+            && (0.2..=10.0).contains(&height_m)
+            && (0.2..=10.0).contains(&stature_m);
+        if !in_range {
+            return Err(ReductionError::Person { mass_kg: person.mass_kg, height_m });
+        }
+        let samples = Samples::of(clip, humanoid);
+        let joint_from_node = calibration::frames(&samples, clip, humanoid);
+        let carriers = Node::ALL.map(|node| {
+            Some(Carrier {
+                joint: calibration::carrier(humanoid, node)?,
+                joint_from_node: joint_from_node[node.index()]?,
+            })
+        });
+        let scale = height_m / stature_m;
+        let bones = Bones::measure(&samples, clip, humanoid, &carriers, stature_m);
+        for node in Node::ALL {
+            let limb = matches!(
+                node.part(),
+                Part::LeftUpperArm
+                    | Part::RightUpperArm
+                    | Part::LeftLowerArm
+                    | Part::RightLowerArm
+                    | Part::LeftUpperLeg
+                    | Part::RightUpperLeg
+                    | Part::LeftLowerLeg
+                    | Part::RightLowerLeg
+            );
+            if limb && bones.tips[node.index()].length() < 0.02 * stature_m {
+                return Err(ReductionError::NoLength { part: node.part() });
+            }
+        }
+        let offsets = bones.offsets.map(|offset| offset * scale);
+        let tips = bones.tips.map(|tip| tip * scale);
+        let body = Body::shaped(person.mass_kg, height_m, &offsets, &tips);
+        let shares = |chain: &[usize]| -> Vec<(usize, f64)> {
+            let count = chain.len() as f64;
+            chain.iter().enumerate().map(|(index, &joint)| (joint, (index + 1) as f64 / count)).collect()
+        };
+        Ok(Reduction {
+            body,
+            carriers,
+            spine: shares(humanoid.spine_chain()),
+            neck: shares(humanoid.neck_chain()),
+            parents: clip.skeleton().joints().iter().map(|joint| joint.parent).collect(),
+            body_metres_per_clip_metre: scale,
+        })
+    }
+
+    /// The body, its limits not yet widened to any motion.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Metres of the body per metre of the clip: 1 unless a height was asked for that is not the skeleton's own.
+    pub fn scale(&self) -> f64 {
+        self.body_metres_per_clip_metre
+    }
+
+    /// The joint that carries a node; `None` where the skeleton has none (then the node turns with its parent).
+    pub fn joint(&self, node: Node) -> Option<usize> {
+        self.carriers[node.index()].map(|carrier| carrier.joint)
+    }
+
+    /// `world_from_node` of all nodes from the `world_from_joint` of all joints; positions in the clip's own metres.
+    pub(super) fn orientations(&self, world: &[Transform]) -> [DQuat; Node::COUNT] {
+        let mut orientations = [DQuat::IDENTITY; Node::COUNT];
+        for node in Node::ALL {
+            orientations[node.index()] = match (&self.carriers[node.index()], node.parent()) {
+                (Some(carrier), _) => (world[carrier.joint].rotation * carrier.joint_from_node).normalize(),
+                (None, Some(parent)) => orientations[parent.index()],
+                (None, None) => DQuat::IDENTITY,
+            };
+        }
+        orientations
+    }
+
+    /// The 18 bodies' pose from the `world_from_joint` of all joints. Lengths are the body's, see [`Reduction::scale`].
+    pub fn pose(&self, world: &[Transform]) -> Pose {
+        let hips = self.carriers[0].map_or(DVec3::ZERO, |carrier| world[carrier.joint].translation);
+        Pose { hips_position: hips * self.body_metres_per_clip_metre, world: self.orientations(world) }
+    }
+}
+
+/// Lengths measured on the skeleton, in anatomical frames and clip metres.
+struct Bones {
+    offsets: [DVec3; Node::COUNT],
+    tips: [DVec3; Node::COUNT],
+}
+
+impl Bones {
+    fn measure(
+        samples: &Samples,
+        clip: &Clip,
+        humanoid: &Humanoid,
+        carriers: &[Option<Carrier>; Node::COUNT],
+        stature_m: f64,
+    ) -> Bones {
+        let standard_scale = stature_m / STANDARD_STATURE_M;
+        // A point's mean place in a node's frame.
+        let place = |node: Node, from: Part, to: Part| -> Option<DVec3> {
+            let carrier = carriers[node.index()]?;
+            samples.mean(|world| {
+                let between = position(world, clip, humanoid, to)? - position(world, clip, humanoid, from)?;
+                let world_from_node = world[carrier.joint].rotation * carrier.joint_from_node;
+                Some(world_from_node.conjugate() * between)
+            })
+        };
+        let neck_base = if humanoid.joint(Part::Neck).is_some() { Part::Neck } else { Part::Head };
+        let mut offsets = Node::ALL.map(|node| standard_offset(node) * standard_scale);
+        let mut tips = Node::ALL.map(|node| standard_tip(node) * standard_scale);
+        let mut set = |node: Node, offset: Option<DVec3>| {
+            if let Some(offset) = offset {
+                offsets[node.index()] = offset;
+            }
+        };
+        let trunk = place(Node::Hips, Part::Hips, neck_base);
+        let chest = trunk.map(|trunk| trunk * CHEST_JOINT_FRACTION);
+        set(Node::Chest, chest);
+        // From the chest's joint, a point fixed in the hips, to something fixed in the chest.
+        let from_chest = |to: Part| -> Option<DVec3> {
+            let (hips, carrier) = (carriers[0]?, carriers[Node::Chest.index()]?);
+            let chest = chest?;
+            samples.mean(|world| {
+                let world_from_hips = world[hips.joint].rotation * hips.joint_from_node;
+                let joint = world[hips.joint].translation + world_from_hips * chest;
+                let world_from_chest = world[carrier.joint].rotation * carrier.joint_from_node;
+                Some(world_from_chest.conjugate() * (position(world, clip, humanoid, to)? - joint))
+            })
+        };
+        set(Node::Neck, from_chest(neck_base));
+        if neck_base == Part::Neck && carriers[Node::Neck.index()].is_some() {
+            set(Node::Head, place(Node::Neck, Part::Neck, Part::Head));
+        }
+        for (shoulder, upper, lower, hand) in [
+            (Node::LeftShoulder, Node::LeftUpperArm, Node::LeftLowerArm, Node::LeftHand),
+            (Node::RightShoulder, Node::RightUpperArm, Node::RightLowerArm, Node::RightHand),
+        ] {
+            if carriers[shoulder.index()].is_some() {
+                set(shoulder, from_chest(shoulder.part()));
+                set(upper, place(shoulder, shoulder.part(), upper.part()));
+            } else if let Some(arm) = from_chest(upper.part()) {
+                // No collar bone: one is put between the breastbone and the arm, and turns with the chest.
+                let start = DVec3::new(arm.x * 0.133, arm.y, arm.z);
+                set(shoulder, Some(start));
+                set(upper, Some(arm - start));
+            }
+            set(lower, place(upper, upper.part(), lower.part()));
+            set(hand, place(lower, lower.part(), hand.part()));
+        }
+        for (upper, lower, foot) in [
+            (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
+            (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
+        ] {
+            set(upper, place(Node::Hips, Part::Hips, upper.part()));
+            set(lower, place(upper, upper.part(), lower.part()));
+            set(foot, place(lower, lower.part(), foot.part()));
+        }
+        for node in Node::ALL {
+            let child = match node {
+                Node::Hips => Some(Node::Chest),
+                Node::Chest => Some(Node::Neck),
+                Node::Neck => Some(Node::Head),
+                Node::Head | Node::LeftHand | Node::RightHand | Node::LeftFoot | Node::RightFoot => None,
+                other => Node::ALL.into_iter().find(|child| child.parent() == Some(other)),
+            };
+            if let Some(child) = child {
+                tips[node.index()] = offsets[child.index()];
+            }
+        }
+        for (foot, toes) in [(Node::LeftFoot, Part::LeftToes), (Node::RightFoot, Part::RightToes)] {
+            if humanoid.joint(toes).is_some()
+                && let Some(ball) = place(foot, foot.part(), toes)
+            {
+                // The toes add about a third to the length from ankle to ball.
+                tips[foot.index()] = ball * 1.35;
+            }
+        }
+        Bones { offsets, tips }
+    }
+}

@@ -1,0 +1,92 @@
+//! Autodesk FBX, read only, by way of [ufbx](https://github.com/ufbx/ufbx).
+//!
+//! The skeleton is made of the bones (limb nodes) and the nodes above them; without bones, of the animated nodes. The
+//! motion is the first animation stack's, evaluated at the rate of its keys, or the file's where they tell nothing.
+//! ufbx turns axes and units into Y up and metres. Joints get their places from ufbx's world transforms, so pivots,
+//! pre-rotations, scales and the inheritance modes of FBX are all in them; scale itself is left out.
+//!
+//! ufbx takes sines from the platform's C library: the last bits of a clip read from FBX may differ between
+//! platforms.
+
+mod motion;
+mod skeleton;
+
+use super::{Document, Parsed};
+use crate::{Error, Limits, Note, Place};
+
+/// Memory that reading may take beside what grows with the file \[bytes\].
+const BASE_MEMORY_BYTES: usize = 64 << 20;
+/// Bytes of memory per byte of the file: arrays are packed in it, at about 5 : 1.
+const MEMORY_PER_BYTE: usize = 32;
+
+/// Reads an FBX file (binary or ASCII) from memory. Other files that it names are not opened.
+///
+/// ```
+/// use sinew_motion::{Limits, formats::fbx};
+///
+/// let error = fbx::read(b"no fbx at all", &Limits::default()).unwrap_err();
+/// assert!(error.remedy().contains("FBX"));
+/// ```
+///
+/// # Errors
+/// When the bytes are no FBX, pass the limits, or hold neither bones nor animated nodes.
+pub fn read(bytes: &[u8], limits: &Limits) -> Result<Parsed, Error> {
+    if bytes.len() as u64 > limits.file_bytes {
+        let problem = format!("{} bytes, more than the {} allowed", bytes.len(), limits.file_bytes);
+        return Err(whole(problem, "export only the character, without media"));
+    }
+    let scene = ufbx::load_memory(bytes, options(bytes.len(), limits)).map_err(|error| refused(&error))?;
+    let mut notes = Vec::new();
+    if scene.anim_stacks.count > 1 {
+        let names = scene.anim_stacks.into_iter().skip(1).take(20).map(|stack| stack.element.name.to_string());
+        let names = names.collect::<Vec<_>>().join(", ");
+        notes.push(Note::new(format!(
+            "the first of {} animation stacks is read; not read: {names}",
+            scene.anim_stacks.count
+        )));
+    }
+    let rig = skeleton::rig(&scene, limits)?;
+    let clip = motion::sample(&scene, &rig, allocator(bytes.len()), limits, &mut notes)?;
+    Ok(Parsed {
+        clip,
+        unit_m: Some(1.0),
+        world_from_source: Some(glam::DQuat::IDENTITY),
+        document: Document::None,
+        notes,
+    })
+}
+
+fn options(file_bytes: usize, limits: &Limits) -> ufbx::LoadOpts<'static> {
+    ufbx::LoadOpts {
+        temp_allocator: allocator(file_bytes),
+        result_allocator: allocator(file_bytes),
+        file_format: ufbx::FileFormat::Fbx,
+        ignore_geometry: true,
+        ignore_embedded: true,
+        skip_skin_vertices: true,
+        load_external_files: false,
+        node_depth_limit: u32::try_from(limits.depth).unwrap_or(u32::MAX).saturating_add(1),
+        space_conversion: ufbx::SpaceConversion::ModifyGeometry,
+        target_axes: ufbx::CoordinateAxes::right_handed_y_up(),
+        target_unit_meters: 1.0,
+        ..Default::default()
+    }
+}
+
+fn allocator(file_bytes: usize) -> ufbx::AllocatorOpts {
+    let memory_limit = file_bytes.saturating_mul(MEMORY_PER_BYTE).saturating_add(BASE_MEMORY_BYTES);
+    ufbx::AllocatorOpts { memory_limit, ..Default::default() }
+}
+
+fn refused(error: &ufbx::Error) -> Error {
+    whole(format!("not readable as FBX: {}", &*error.description), "export as FBX 7.4 binary, or convert it to glTF")
+}
+
+fn whole(problem: impl Into<String>, remedy: &str) -> Error {
+    Error::new(Place::File, problem, remedy)
+}
+
+/// An error at a node.
+fn at_node(name: &str, problem: impl Into<String>, remedy: &str) -> Error {
+    Error::new(Place::Element(format!("node {name:?}")), problem, remedy)
+}

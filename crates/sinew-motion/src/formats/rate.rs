@@ -1,0 +1,66 @@
+//! The frame rate behind an animation's keys.
+
+/// Rates that people capture and animate at \[Hz\].
+const COMMON_HZ: [f64; 13] = [24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 72.0, 90.0, 100.0, 120.0, 150.0, 200.0, 240.0];
+/// How far a key may be from a frame \[frames\]: times are single precision, and some exporters round to milliseconds.
+const ON_FRAME: f64 = 0.07;
+/// Keys farther apart than this say nothing about frames \[s\].
+const SPARSE_SECS: f64 = 0.2;
+/// Rates that keys may have of their own \[Hz\].
+const OWN_HZ: std::ops::RangeInclusive<f64> = 5.0..=1000.0;
+
+/// The lowest common rate whose frames hold every key; else the keys' own uniform rate; `None` where they tell nothing.
+///
+/// `tracks` holds the key times of each track \[s\], ascending.
+pub(crate) fn rate_hz<'a>(tracks: impl Iterator<Item = &'a [f64]> + Clone) -> Option<f64> {
+    let densest = tracks.clone().max_by_key(|times| times.len()).filter(|times| times.len() > 2)?;
+    let start = tracks.clone().filter_map(|times| times.first()).copied().fold(f64::INFINITY, f64::min);
+    let mean_secs = (densest[densest.len() - 1] - densest[0]) / (densest.len() - 1) as f64;
+    if mean_secs > SPARSE_SECS {
+        return None;
+    }
+    let holds_all = |hz: f64| {
+        let off_frame = |time: f64| {
+            let frame = (time - start) * hz;
+            (frame - frame.round()).abs()
+        };
+        // Times rounded to a fraction drift by no more than the rounding, so a fixed share of a frame bounds them.
+        hz * mean_secs > 0.9 && tracks.clone().all(|times| times.iter().all(|&time| off_frame(time) < ON_FRAME))
+    };
+    if let Some(&hz) = COMMON_HZ.iter().find(|&&hz| holds_all(hz)) {
+        return Some(hz);
+    }
+    let own_hz = 1.0 / mean_secs;
+    (OWN_HZ.contains(&own_hz) && holds_all(own_hz)).then_some(own_hz)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rate_hz;
+
+    fn keys(hz: f64, count: usize) -> Vec<f64> {
+        (0..count).map(|key| f64::from((key as f64 / hz) as f32)).collect()
+    }
+
+    #[test]
+    fn keys_of_a_common_rate_are_recognised_through_single_precision() {
+        for hz in [24.0, 25.0, 30.0, 60.0, 120.0, 240.0] {
+            assert_eq!(rate_hz([keys(hz, 1000).as_slice()].into_iter()), Some(hz));
+        }
+    }
+
+    #[test]
+    fn a_sparse_track_does_not_hide_the_dense_one() {
+        let (dense, sparse) = (keys(30.0, 91), vec![0.0, 3.0]);
+        assert_eq!(rate_hz([sparse.as_slice(), &dense].into_iter()), Some(30.0));
+    }
+
+    #[test]
+    fn an_odd_uniform_rate_is_kept_and_disorder_gives_none() {
+        let own_hz = rate_hz([keys(85.0, 100).as_slice()].into_iter()).unwrap();
+        assert!((own_hz - 85.0).abs() < 1e-3);
+        assert_eq!(rate_hz([[0.0, 0.011, 0.0473, 0.05, 0.0911].as_slice()].into_iter()), None);
+        assert_eq!(rate_hz([[0.0, 1.0].as_slice()].into_iter()), None);
+        assert_eq!(rate_hz(std::iter::empty()), None);
+    }
+}

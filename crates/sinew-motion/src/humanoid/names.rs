@@ -1,0 +1,365 @@
+//! What a joint's name says about the body.
+//!
+//! One normaliser takes a name apart (`mixamorig:LeftUpLeg`, `Bip01 L Thigh`, `upper_arm.L`, `lfemur`), one table says
+//! what the rest means. Names that mean different things in different dialects (`LeftShoulder`, `LeftLeg`, `LeftHip`)
+//! keep a kind of their own here; [`super::by_name`] decides by what stands around them.
+
+use crate::Side;
+use std::collections::BTreeMap;
+
+/// What the stem of a joint's name means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Hips or pelvis. With a side (`LeftHip`) it is the pivot of the upper leg.
+    Hips,
+    /// The root of the file: the hips when nothing better is named.
+    Root,
+    /// Lower trunk, and anything between hips and neck.
+    Trunk,
+    /// Upper chest, as VRM names it.
+    UpperChest,
+    Neck,
+    Head,
+    /// A collar bone whatever else there is.
+    Collar,
+    /// A collar bone (`LeftShoulder`, `LeftArm`) or an upper arm (`LeftCollar`, `LeftShoulder`, `LeftElbow`).
+    Shoulder,
+    UpperArm,
+    /// An upper arm (`LeftArm`, `LeftForeArm`), or any joint of an arm.
+    Arm,
+    LowerArm,
+    /// The hand, named after its pivot. Where `hand` hangs from it, this one is the hand.
+    Wrist,
+    Hand,
+    UpperLeg,
+    /// A lower leg (`LeftUpLeg`, `LeftLeg`) or an upper leg (`LeftLeg`, `LeftKnee`).
+    Leg,
+    LowerLeg,
+    /// The foot, named after its pivot. Where `foot` hangs from it, this one is the foot.
+    Ankle,
+    Foot,
+    Toes,
+    Tail,
+    /// Known, and no part of ours: fingers, face, twists, helpers.
+    Other,
+}
+
+/// The stems of all dialects, without side, case, digits and separators.
+const STEMS: &[(Kind, &[&str])] = &[
+    (Kind::Hips, &["hips", "hip", "pelvis"]),
+    (Kind::Root, &["root", "reference", "bodyroot"]),
+    (
+        Kind::Trunk,
+        &[
+            "spine",
+            "chest",
+            "torso",
+            "trunk",
+            "abdomen",
+            "waist",
+            "belly",
+            "stomach",
+            "lowerback",
+            "upperback",
+            "back",
+            "thorax",
+            "lowerspine",
+            "middlespine",
+            "midspine",
+            "upperspine",
+            "lumbar",
+            "lowerchest",
+            "ribcage",
+            "lowertorso",
+            "uppertorso",
+            "abdomenlower",
+            "abdomenupper",
+            "chestlower",
+            "sternum",
+            "tospine",
+        ],
+    ),
+    (Kind::UpperChest, &["upperchest", "chestupper"]),
+    (Kind::Neck, &["neck", "lowerneck", "upperneck", "necklower", "neckupper", "necktwist", "cervical"]),
+    (Kind::Head, &["head", "skull"]),
+    (
+        Kind::Collar,
+        &["collar", "clavicle", "clav", "collarbone", "clavicula", "shoulderjoint", "scapula", "innershoulder"],
+    ),
+    (Kind::Shoulder, &["shoulder"]),
+    (Kind::UpperArm, &["upperarm", "uparm", "humerus", "shldr", "shldrbend", "bicep", "armupper", "uarm"]),
+    (Kind::Arm, &["arm"]),
+    (Kind::LowerArm, &["lowerarm", "forearm", "lowarm", "elbow", "radius", "forearmbend", "armlower", "ulna"]),
+    (Kind::Wrist, &["wrist"]),
+    (Kind::Hand, &["hand", "palm"]),
+    (Kind::UpperLeg, &["upperleg", "upleg", "thigh", "femur", "thighbend", "legupper", "uleg"]),
+    (Kind::Leg, &["leg"]),
+    (Kind::LowerLeg, &["lowerleg", "lowleg", "calf", "shin", "knee", "tibia", "leglower", "crus"]),
+    (Kind::Ankle, &["ankle"]),
+    (Kind::Foot, &["foot"]),
+    (Kind::Toes, &["toe", "toes", "toebase", "ball", "foottoe", "forefoot"]),
+    (Kind::Tail, &["tail"]),
+    (
+        Kind::Other,
+        &[
+            "hipjoint",
+            "buttock",
+            "finger",
+            "fingers",
+            "fingerbase",
+            "thumb",
+            "index",
+            "middle",
+            "mid",
+            "ring",
+            "pinky",
+            "eye",
+            "jaw",
+        ],
+    ),
+];
+
+/// Words that make a joint no part of ours wherever they stand in its name.
+const HELPERS: &[&str] = &[
+    "ik",
+    "fk",
+    "twist",
+    "roll",
+    "nub",
+    "end",
+    "site",
+    "target",
+    "pole",
+    "ctrl",
+    "control",
+    "helper",
+    "weapon",
+    "prop",
+    "hair",
+    "skirt",
+    "cloth",
+    "cape",
+    "breast",
+    "eye",
+    "ear",
+    "jaw",
+    "brow",
+    "tongue",
+    "teeth",
+    "lip",
+    "nose",
+    "thumb",
+    "index",
+    "middle",
+    "ring",
+    "pinky",
+    "little",
+    "finger",
+    "fingers",
+    "metacarpal",
+    "carpal",
+    "footsteps",
+    "camera",
+    "handle",
+    "attach",
+    "socket",
+    "dummy",
+    "corrective",
+    "muscle",
+];
+
+/// Words in front of a name that say nothing about the body.
+const PREFIXES: &[&str] = &[
+    "mixamorig",
+    "bip",
+    "bone",
+    "valve",
+    "valvebiped",
+    "biped",
+    "j",
+    "b",
+    "c",
+    "m",
+    "def",
+    "org",
+    "mch",
+    "cc",
+    "base",
+    "jnt",
+    "joint",
+    "bn",
+    "bind",
+    "skel",
+    "skeleton",
+    "armature",
+    "character",
+    "rig",
+    "sk",
+    "hik",
+    "actor",
+    "body",
+];
+
+/// Words at the end of a name that say nothing about the body.
+const SUFFIXES: &[&str] = &["joint", "jnt", "bone", "bind", "base", "jt", "skin"];
+
+/// A joint's name, understood.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Name {
+    /// The side that the name gives.
+    pub side: Option<Side>,
+    /// What its stem means, where the table knows it.
+    pub kind: Option<Kind>,
+}
+
+/// Reads the names of a whole skeleton: a first word that most of the names share is nobody's body part.
+pub(super) fn read(names: &[&str]) -> Vec<Name> {
+    let words: Vec<Vec<String>> = names.iter().map(|name| split(name)).collect();
+    let mut first: BTreeMap<&str, usize> = BTreeMap::new();
+    for word in words.iter().filter(|words| words.len() > 1).map(|words| words[0].as_str()) {
+        *first.entry(word).or_default() += 1;
+    }
+    // The sides each begin about 40 % of the names at most.
+    let shared = first.into_iter().find(|&(_, count)| names.len() > 3 && count * 2 > names.len()).map(|(word, _)| word);
+    words.iter().map(|words| understand(words, shared)).collect()
+}
+
+/// The lower-case words of a name, digits left out: cut at separators, case changes and digits.
+fn split(name: &str) -> Vec<String> {
+    let name = name.rsplit([':', '|']).next().unwrap_or(name);
+    let letters: Vec<char> = name.chars().collect();
+    let mut words = Vec::new();
+    let mut word = String::new();
+    for (at, &letter) in letters.iter().enumerate() {
+        let cut = letter.is_uppercase()
+            && at > 0
+            && (letters[at - 1].is_lowercase()
+                || letters[at - 1].is_uppercase() && letters.get(at + 1).is_some_and(|next| next.is_lowercase()));
+        if (cut || !letter.is_alphabetic()) && !word.is_empty() {
+            words.push(std::mem::take(&mut word));
+        }
+        if letter.is_alphabetic() {
+            word.extend(letter.to_lowercase());
+        }
+    }
+    if !word.is_empty() {
+        words.push(word);
+    }
+    words
+}
+
+fn understand(words: &[String], shared: Option<&str>) -> Name {
+    let mut words: Vec<&str> = words.iter().map(String::as_str).collect();
+    if let Some(shared) = shared {
+        if words.len() > 1 && words[0] == shared {
+            words.remove(0);
+        }
+    }
+    let mut side = words.iter().find_map(|word| side_word(word));
+    words.retain(|word| side_word(word).is_none());
+    while words.len() > 1 && PREFIXES.contains(&words[0]) {
+        words.remove(0);
+    }
+    if words.iter().any(|word| HELPERS.contains(word)) {
+        // `neckTwist01` is Daz's neck; everything else that twists only helps the skin.
+        let kind = kind_of(&words.concat()).unwrap_or(Kind::Other);
+        return Name { side, kind: Some(kind) };
+    }
+    let mut kind = kind_of(&words.concat());
+    while kind.is_none() && words.len() > 1 && words.last().is_some_and(|word| SUFFIXES.contains(word)) {
+        words.pop();
+        kind = kind_of(&words.concat());
+    }
+    if kind.is_none() && side.is_none() {
+        // `lefthand`, `lfemur`: the side is stuck to the stem. Longest marker first.
+        let stem = words.concat();
+        for (marker, marked) in [("left", Side::Left), ("right", Side::Right), ("l", Side::Left), ("r", Side::Right)] {
+            if let Some(found) = stem.strip_prefix(marker).and_then(kind_of) {
+                (side, kind) = (Some(marked), Some(found));
+                break;
+            }
+        }
+    }
+    Name { side, kind }
+}
+
+fn side_word(word: &str) -> Option<Side> {
+    match word {
+        "l" | "left" | "lft" => Some(Side::Left),
+        "r" | "right" | "rgt" => Some(Side::Right),
+        _ => None,
+    }
+}
+
+fn kind_of(stem: &str) -> Option<Kind> {
+    STEMS.iter().find(|(_, stems)| stems.contains(&stem)).map(|&(kind, _)| kind)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(name: &str) -> (Option<Side>, Option<Kind>) {
+        let name = read(&[name]).remove(0);
+        (name.side, name.kind)
+    }
+
+    #[test]
+    fn every_dialect_names_the_left_thigh_or_arm() {
+        for name in [
+            "LeftUpLeg",
+            "lThigh",
+            "lfemur",
+            "mixamorig:LeftUpLeg",
+            "Bip01 L Thigh",
+            "thigh_l",
+            "J_Bip_L_UpperLeg",
+            "thigh.L",
+            "ValveBiped.Bip01_L_Thigh",
+            "CC_Base_L_Thigh",
+            "DEF-thigh.L",
+            "leftUpperLeg",
+            "Character1_LeftUpLeg",
+        ] {
+            let names = ["Character1_Hips", "Character1_Spine", "Character1_Head", name];
+            let read = read(&names).remove(3);
+            assert_eq!((read.side, read.kind), (Some(Side::Left), Some(Kind::UpperLeg)), "{name}");
+        }
+        for name in ["upper_arm.R", "upperarm_r", "rShldr", "rhumerus", "J_Bip_R_UpperArm", "Bip01 R UpperArm"] {
+            assert_eq!(one(name), (Some(Side::Right), Some(Kind::UpperArm)), "{name}");
+        }
+    }
+
+    #[test]
+    fn helpers_and_fingers_are_no_parts() {
+        for name in [
+            "ik_foot_l",
+            "upperarm_twist_01_l",
+            "Bip01LFinger0Nub",
+            "LeftHandIndex1",
+            "LeftInHandMiddle",
+            "LThumb",
+            "LeftFootThumb1",
+            "Head_Nub",
+            "LHipJoint",
+            "lhipjoint",
+            "rButtock",
+            "LFingers",
+            "leftEye",
+            "Bip01 Footsteps",
+        ] {
+            assert_eq!(one(name).1, Some(Kind::Other), "{name}");
+        }
+    }
+
+    #[test]
+    fn words_that_begin_like_a_side_are_no_side() {
+        for (name, kind) in
+            [("lowerback", Kind::Trunk), ("root", Kind::Root), ("lowerneck", Kind::Neck), ("Ribcage", Kind::Trunk)]
+        {
+            assert_eq!(one(name), (None, Some(kind)), "{name}");
+        }
+        assert_eq!(one("Lefthand"), (Some(Side::Left), Some(Kind::Hand)));
+        assert_eq!(one("lshoulderjoint"), (Some(Side::Left), Some(Kind::Collar)));
+    }
+}

@@ -1,0 +1,105 @@
+//! The coordinates of actuation of a motion.
+
+use crate::settings::{Coordinates, Settings};
+use crate::torque::torques;
+use crate::upper_body::{Coordinates24, Matrix24, UpperBody};
+use nalgebra::{SMatrix, SymmetricEigen};
+use sinew_body::humanoid::{Body, Pose, UPPER_DOFS, UPPER_NODES};
+
+/// Why no basis can be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BasisError {
+    /// Too little motion.
+    #[error("a basis needs at least 3 frames of motion, this has {0}; give a longer clip or a wider --cycle")]
+    TooShort(usize),
+    /// The motion holds a value that is no number.
+    #[error("the motion is not finite; check the clip with `sinew inspect`")]
+    NotFinite,
+}
+
+/// The actuation space of one motion: orthonormal directions of joint torque, from the most used to the least, and what
+/// each coordinate weighs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basis {
+    /// Mean square torque along each direction \[(N m)²\], descending: the spectrum of actuation.
+    eigenvalues: Coordinates24,
+    /// The directions, a row each, over the 24 coordinates.
+    directions: Matrix24,
+    /// Mean of the mass matrix's diagonal over the motion \[kg m²\].
+    inertia: Coordinates24,
+}
+
+impl Basis {
+    /// Inverse dynamics and principal components of a motion (section 4.1). The second moment is *uncentred*: centred, as
+    /// principal components usually are, a joint under constant load would look free.
+    ///
+    /// # Errors
+    /// When the motion has fewer than three frames or is not finite.
+    pub fn of_motion(body: &Body, motion: &[Pose], settings: &Settings) -> Result<Basis, BasisError> {
+        if motion.len() < 3 {
+            return Err(BasisError::TooShort(motion.len()));
+        }
+        if !motion.iter().all(Pose::is_finite) {
+            return Err(BasisError::NotFinite);
+        }
+        let torques = torques(body, motion, settings.time_step_secs);
+        let mut moment = SMatrix::<f64, UPPER_DOFS, UPPER_DOFS>::zeros();
+        for torque in &torques {
+            let torque = nalgebra::SVector::from(*torque);
+            moment += torque * torque.transpose();
+        }
+        moment /= torques.len() as f64;
+        let eigen = SymmetricEigen::new(moment);
+        let mut order: Vec<usize> = (0..UPPER_DOFS).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+        let directions = std::array::from_fn(|rank| {
+            let column = eigen.eigenvectors.column(order[rank]);
+            // An eigenvector's sign is arbitrary: the largest component is made positive.
+            let largest = (0..UPPER_DOFS).max_by(|&a, &b| column[a].abs().total_cmp(&column[b].abs()));
+            let sign = largest.map_or(1.0, |at| column[at].signum());
+            std::array::from_fn(|dof| sign * column[dof])
+        });
+        Ok(Basis {
+            eigenvalues: std::array::from_fn(|rank| eigen.eigenvalues[order[rank]].max(0.0)),
+            directions,
+            inertia: mean_inertia(body, motion),
+        })
+    }
+
+    /// Mean square torque along each direction \[(N m)²\], descending.
+    pub fn eigenvalues(&self) -> &[f64; UPPER_DOFS] {
+        &self.eigenvalues
+    }
+
+    /// The directions in which the motion uses most torque first, unit vectors over the 24 coordinates.
+    pub fn directions(&self) -> &[[f64; UPPER_DOFS]; UPPER_DOFS] {
+        &self.directions
+    }
+
+    /// Mean inertia behind each coordinate over the motion \[kg m²\].
+    pub fn inertia(&self) -> &[f64; UPPER_DOFS] {
+        &self.inertia
+    }
+
+    /// The k directions that obey dynamics: Ê of the paper (or, for the counter-experiment, the other end).
+    pub(crate) fn dynamic(&self, settings: &Settings) -> &[Coordinates24] {
+        let k = settings.k.min(UPPER_DOFS);
+        match settings.coordinates {
+            Coordinates::Low => &self.directions[UPPER_DOFS - k..],
+            Coordinates::High => &self.directions[..k],
+        }
+    }
+}
+
+fn mean_inertia(body: &Body, motion: &[Pose]) -> Coordinates24 {
+    let upper = UpperBody::of(body);
+    let mut sum = [0.0; UPPER_DOFS];
+    let mut mass = [[0.0; UPPER_DOFS]; UPPER_DOFS];
+    for pose in motion {
+        upper.mass_matrix(&upper.place(&pose.world[..UPPER_NODES]), &mut mass);
+        for (dof, sum) in sum.iter_mut().enumerate() {
+            *sum += mass[dof][dof];
+        }
+    }
+    sum.map(|sum| sum / motion.len() as f64)
+}

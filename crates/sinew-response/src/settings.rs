@@ -1,0 +1,127 @@
+//! What can be chosen, and the method's constants.
+
+use sinew_body::humanoid::{Node, UPPER_DOFS, upper_dofs};
+
+/// A named reading of the paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Preset {
+    /// What holds on every clip: the dynamic constraint as a penalty, aimed at the input's own torque, with a passive
+    /// spring and damper in the near-unactuated coordinates. The default.
+    #[default]
+    Robust,
+    /// Close to the print: the constraint as a softer penalty, aimed at zero torque, nothing passive. Shows the paper's
+    /// sweep over k; leaves the input a little even without a push.
+    Paper,
+    /// The print: the constraint is hard. Its zero dynamics are unstable at any time step (they grow by about e^5 a second
+    /// at k = 10), so that even an unpushed walk leaves the input within a few cycles; kept to show just that.
+    Literal,
+}
+
+/// Which end of the spectrum of actuation the dynamic constraint acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Coordinates {
+    /// The least actuated coordinates: the method.
+    #[default]
+    Low,
+    /// The most actuated: the paper's counter-experiment (section 5, eigenvector analysis), which fails.
+    High,
+}
+
+/// Everything that can be chosen about a response.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// The reading of the paper.
+    pub preset: Preset,
+    /// How many coordinates obey dynamics, k: 0 to 24. The paper uses 10, and 5 for slow forms.
+    pub k: usize,
+    /// Which ones.
+    pub coordinates: Coordinates,
+    /// How far the body yields, relative to 1: see [`Settings::MIN_COMPLIANCE`] and [`Settings::MAX_COMPLIANCE`]. Only the
+    /// robust preset has this dial.
+    pub compliance: f64,
+    /// Time from one frame to the next \[s\].
+    pub time_step_secs: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            preset: Preset::Robust,
+            k: 10,
+            coordinates: Coordinates::Low,
+            compliance: 1.0,
+            time_step_secs: 1.0 / 60.0,
+        }
+    }
+}
+
+impl Settings {
+    /// The stiffest setting of the dial.
+    pub const MIN_COMPLIANCE: f64 = 0.25;
+    /// The loosest.
+    pub const MAX_COMPLIANCE: f64 = 4.0;
+}
+
+/// Acceleration of gravity \[m/s²\], world axes.
+pub(crate) const GRAVITY: glam::DVec3 = glam::DVec3::new(0.0, -9.81, 0.0);
+
+/// Body mass for which the torque weights are stated \[kg\].
+pub(crate) const REFERENCE_MASS_KG: f64 = 80.0;
+
+/// How long muscles take to answer \[s\]: the paper's reflex delay, after which w3 has faded to nothing.
+pub(crate) const REFLEX_SECS: f64 = 0.2;
+
+/// The weights of one optimisation, resolved from settings and body.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Weights {
+    /// Tracking, w1 of EQ6 \[1/rad\].
+    pub track: f64,
+    /// Damping, w2 of EQ6, per coordinate \[s/rad\].
+    pub damp: [f64; UPPER_DOFS],
+    /// Reflex delay, w3 of EQ6 at the instant of a push \[s/(N m)\].
+    pub reflex: f64,
+    /// The dynamic constraint's penalty \[1/(N m)\]; infinite for the literal preset.
+    pub dynamics: f64,
+    /// Frequency of the passive spring \[rad/s\]; 0 for none.
+    pub passive_frequency: f64,
+    /// Its damping ratio.
+    pub passive_damping: f64,
+    /// Whether the constraint aims at the input's own torque (else at zero).
+    pub aims_at_input: bool,
+    /// Whether EQ4 damps velocity relative to the input's (else absolute, as printed).
+    pub damps_relative: bool,
+}
+
+impl Weights {
+    pub(crate) fn of(settings: &Settings, mass_kg: f64) -> Weights {
+        let compliance = settings.compliance.clamp(Settings::MIN_COMPLIANCE, Settings::MAX_COMPLIANCE);
+        let by_mass = REFERENCE_MASS_KG / mass_kg;
+        let mut damp = [10.0; UPPER_DOFS];
+        for (weight, dof) in damp.iter_mut().zip(upper_dofs()) {
+            if dof.node == Node::Chest {
+                *weight = 30.0;
+            }
+        }
+        let base = Weights {
+            track: 200.0,
+            damp,
+            reflex: by_mass / 30.0,
+            dynamics: 6.7 * by_mass,
+            passive_frequency: 8.0,
+            passive_damping: 1.0,
+            aims_at_input: true,
+            damps_relative: true,
+        };
+        match settings.preset {
+            Preset::Robust => Weights { track: base.track / compliance, ..base },
+            Preset::Paper => Weights { dynamics: 4.0 * by_mass, passive_frequency: 0.0, aims_at_input: false, ..base },
+            Preset::Literal => Weights {
+                dynamics: f64::INFINITY,
+                passive_frequency: 0.0,
+                aims_at_input: false,
+                damps_relative: false,
+                ..base
+            },
+        }
+    }
+}
