@@ -8,6 +8,9 @@ use crate::figure::is_drawable;
 use crate::lens::Lens;
 use crate::text::{Anchor, Type};
 
+/// An arrow that looks shorter than this \[units\] is drawn as a ring.
+const SHORT: f32 = 20.0;
+
 /// A force on a body. Its tip is drawn at the point of application; along the line of sight it becomes a ring, with a
 /// dot when it comes toward the viewer and a cross when it goes away.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,26 +52,30 @@ impl Arrow {
         let (tip, tail) = (lens.spot(self.at), lens.spot(self.tail(strongest_n)));
         let (right, down) = (tip.0 - tail.0, tip.1 - tail.1);
         let length = (right * right + down * down).sqrt();
-        let toward = self.force_n.dot(lens.view.toward) > 0.0;
-        let root = if length > 20.0 * unit {
+        if length > SHORT * unit {
             shaft(canvas, tip, (right / length, down / length), length, unit);
-            tail
+            self.write(canvas, tail, down > -0.5 * length, unit, taken);
         } else {
-            sight_line(canvas, tip, toward, unit);
-            (tip.0, tip.1 - 10.0 * unit)
-        };
-        let above = length <= 20.0 * unit || down > -0.5 * length;
-        self.write(canvas, root, above, unit, taken);
+            sight_line(canvas, tip, self.force_n.dot(lens.view.toward) > 0.0, unit);
+            self.write(canvas, (tip.0, tip.1 - 10.0 * unit), true, unit, taken);
+        }
+    }
+
+    /// The box around its tip, which labels keep clear of.
+    pub(crate) fn tip_box(&self, lens: &Lens, unit: f32) -> [f32; 4] {
+        let (x, y) = lens.spot(self.at);
+        let reach = 10.0 * unit;
+        [x - reach, y - reach, x + reach, y + reach]
     }
 
     fn write(&self, canvas: &mut Canvas, root: Spot, above: bool, unit: f32, taken: &mut Vec<[f32; 4]>) {
         let font = Type::strong(14.0 * unit, ARROW);
-        let text = font.fit(&self.text(), canvas.width() - 8.0 * unit);
+        let text = font.fit(&self.text(), canvas.width() - 14.0 * unit);
         let half = font.width(&text) / 2.0;
-        let x = root.0.max(half + 4.0 * unit).min(canvas.width() - half - 4.0 * unit);
+        let x = root.0.max(half + 7.0 * unit).min(canvas.width() - half - 7.0 * unit);
         let line = 16.0 * unit;
         let mut y = if above { root.1 - 7.0 * unit } else { root.1 + line };
-        for _ in 0..8 {
+        for _ in 0..12 {
             let own = [x - half, y - line * 0.75, x + half, y + line * 0.25];
             let clear =
                 |other: &[f32; 4]| own[0] > other[2] || own[2] < other[0] || own[1] > other[3] || own[3] < other[1];

@@ -1,8 +1,7 @@
 //! The paper: a pixmap with the few strokes that pictures need.
 
 use tiny_skia::{
-    FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint, PremultipliedColorU8, Rect, Stroke,
-    StrokeDash, Transform,
+    FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, StrokeDash, Transform,
 };
 
 use crate::limits::{MAX_HEIGHT_PX, MAX_WIDTH_PX};
@@ -101,10 +100,19 @@ impl Canvas {
         self.pixmap.stroke_path(&path, &colour.paint(), &stroke, Transform::identity(), None);
     }
 
-    /// Lays another picture on this one, its corner at whole pixels.
-    pub fn paste(&mut self, left: i32, top: i32, picture: &Canvas) {
-        let paint = PixmapPaint::default();
-        self.pixmap.draw_pixmap(left, top, picture.pixmap.as_ref(), &paint, Transform::identity(), None);
+    /// Lays another opaque picture on this one, its corner at whole pixels; what reaches over the edges is cut off.
+    pub fn paste(&mut self, left: usize, top: usize, picture: &Canvas) {
+        let (width, height) = (self.pixmap.width() as usize, self.pixmap.height() as usize);
+        let own = picture.pixmap.width() as usize;
+        let wide = own.min(width.saturating_sub(left));
+        if wide == 0 {
+            return;
+        }
+        let pixels = self.pixmap.pixels_mut();
+        for (row, line) in picture.pixmap.pixels().chunks_exact(own).enumerate().take(height.saturating_sub(top)) {
+            let at = (top + row) * width + left;
+            pixels[at..at + wide].copy_from_slice(&line[..wide]);
+        }
     }
 }
 

@@ -3,10 +3,10 @@
 use crate::canvas::{Canvas, Spot};
 use crate::colour::{ARROW, HAIRLINE, INK, INK_SOFT, PAPER};
 use crate::limits::{MAX_MARKS, MAX_PLOT_VALUE, MAX_SERIES};
-use crate::strip::{head_height, paint_head};
+use crate::strip::head_height;
 use crate::text::{Anchor, Type};
 use crate::ticks::{Ticks, widened};
-use crate::{Colour, Limit, Mark, PALETTE, Plot, Series};
+use crate::{Colour, Error, Limit, Mark, PALETTE, Plot, Series};
 
 /// Dashes \[units\]: lines stay apart where colours do not, as in a photocopy.
 const DASHES: [&[f32]; 5] = [&[], &[9.0, 4.0], &[2.6, 3.2], &[12.0, 4.0, 2.6, 4.0], &[18.0, 5.0]];
@@ -113,27 +113,30 @@ impl<'a> Chart<'a> {
         (clip(mark.from_secs), clip(mark.to_secs))
     }
 
-    pub fn paint(&self, canvas: &mut Canvas, top: f32) {
-        // Lines are drawn on a sheet of their own, so that the field's edges clip them.
-        paint_head(canvas, top, &self.plot.title, "", self.unit, self.width - 24.0 * self.unit);
-        self.paint_grid(canvas, top);
-        self.paint_marks(canvas, top);
-        self.paint_limits(canvas, top);
+    pub fn draw(&self) -> Result<Canvas, Error> {
+        let mut sheet = Canvas::new(self.width as u32, self.height() as u32, PAPER)?;
+        let canvas = &mut sheet;
+        let font = Type::strong(19.0 * self.unit, INK);
+        let title = font.fit(self.plot.title.trim(), self.width - 48.0 * self.unit);
+        canvas.text((24.0 * self.unit, 34.0 * self.unit), Anchor::Start, font, &title);
+        self.paint_grid(canvas);
+        self.paint_marks(canvas);
+        self.paint_limits(canvas);
         // The smallest peaks first: the line that matters most lies on top.
         for &(index, _) in self.order.iter().rev() {
-            self.paint_series(canvas, top, index);
+            self.paint_series(canvas, index);
         }
-        self.paint_legend(canvas, top);
+        self.paint_legend(canvas);
+        Ok(sheet)
     }
 
-    fn paint_grid(&self, canvas: &mut Canvas, above: f32) {
+    fn paint_grid(&self, canvas: &mut Canvas) {
         let unit = self.unit;
         let [left, top, right, bottom] = self.field;
-        let (top, bottom) = (top + above, bottom + above);
         let hair = unit.max(1.0).round();
         let font = Type::plain(14.0 * unit, INK_SOFT);
         for value in self.y_ticks.values() {
-            let y = (self.spot(self.x.0, value).1 + above).round();
+            let y = (self.spot(self.x.0, value).1).round();
             let axis = value.abs() < self.y_ticks.step() * 1e-6;
             canvas.rect(left, y, right - left, hair, if axis { INK_SOFT } else { HAIRLINE });
             canvas.text((left - 9.0 * unit, y + 5.0 * unit), Anchor::End, font, &self.y_ticks.label(value));
@@ -152,10 +155,10 @@ impl<'a> Chart<'a> {
         canvas.text_upwards((38.0 * unit, (top + bottom) / 2.0), Anchor::Middle, name, &label);
     }
 
-    fn paint_marks(&self, canvas: &mut Canvas, above: f32) {
+    fn paint_marks(&self, canvas: &mut Canvas) {
         let unit = self.unit;
         let font = Type::strong(13.0 * unit, ARROW);
-        let (top, bottom) = (self.field[1] + above, self.field[3] + above);
+        let (top, bottom) = (self.field[1], self.field[3]);
         for &(mark, row) in &self.mark_rows {
             let (start, end) = self.mark_ends(mark);
             canvas.rect(start, top, (end - start).max(unit), bottom - top, ARROW.with_alpha(34));
@@ -167,12 +170,12 @@ impl<'a> Chart<'a> {
         }
     }
 
-    fn paint_limits(&self, canvas: &mut Canvas, above: f32) {
+    fn paint_limits(&self, canvas: &mut Canvas) {
         let unit = self.unit;
         let [left, _, right, _] = self.field;
         let font = Type::plain(13.0 * unit, INK_SOFT);
         for limit in limits(self.plot) {
-            let y = self.spot(self.x.0, limit.value).1 + above;
+            let y = self.spot(self.x.0, limit.value).1;
             let dash = [6.0 * unit, 5.0 * unit];
             canvas.polyline(&[(left, y), (right, y)], 1.4 * unit, INK_SOFT, &dash);
             let label = font.fit(limit.label.trim(), (right - left) / 2.0);
@@ -180,8 +183,8 @@ impl<'a> Chart<'a> {
         }
     }
 
-    fn paint_series(&self, canvas: &mut Canvas, above: f32, index: usize) {
-        for run in self.runs(&self.plot.series[index], above) {
+    fn paint_series(&self, canvas: &mut Canvas, index: usize) {
+        for run in self.runs(&self.plot.series[index]) {
             if let [only] = run[..] {
                 canvas.disc(only, LINE * self.unit, colour(self.plot, index));
             } else {
@@ -192,14 +195,13 @@ impl<'a> Chart<'a> {
 
     /// The unbroken stretches of a line, with no more points than its pixels can show: of those within half a pixel
     /// column the first, lowest, highest and last are kept.
-    fn runs(&self, series: &Series, above: f32) -> Vec<Vec<Spot>> {
+    fn runs(&self, series: &Series) -> Vec<Vec<Spot>> {
         let mut runs: Vec<Vec<Spot>> = Vec::new();
         for stretch in series.points.split(|&point| !is_plottable(point)) {
             let mut run: Vec<Spot> = Vec::new();
             let mut bin: Vec<Spot> = Vec::new();
             for &(x, y) in stretch {
                 let spot = self.spot(x, y);
-                let spot = (spot.0, spot.1 + above);
                 if bin.first().is_some_and(|first| (first.0 * 2.0).floor() != (spot.0 * 2.0).floor()) {
                     run.append(&mut bin);
                 }
@@ -225,13 +227,13 @@ impl<'a> Chart<'a> {
         DASHES[index % DASHES.len()].iter().map(|length| length * self.unit).collect()
     }
 
-    fn paint_legend(&self, canvas: &mut Canvas, above: f32) {
+    fn paint_legend(&self, canvas: &mut Canvas) {
         let unit = self.unit;
         let font = Type::plain(14.0 * unit, INK);
         let soft = Type::plain(14.0 * unit, INK_SOFT);
         let left = self.field[2] + 18.0 * unit;
         let right = self.width - 24.0 * unit;
-        let mut y = self.field[1] + above + 14.0 * unit;
+        let mut y = self.field[1] + 14.0 * unit;
         if !self.order.is_empty() {
             canvas.text((right, y - 20.0 * unit), Anchor::End, Type::plain(12.0 * unit, INK_SOFT), "peak");
         }
@@ -280,8 +282,8 @@ fn peak(series: &Series) -> Option<f64> {
 
 fn three_digits(value: f64) -> String {
     let text = match value.abs() {
-        size if size == 0.0 => "0".to_owned(),
-        size if size < 1e-3 || size >= 1e6 => format!("{value:.1e}"),
+        0.0 => "0".to_owned(),
+        size if !(1e-3..1e6).contains(&size) => format!("{value:.1e}"),
         size if size < 1.0 => format!("{value:.3}"),
         size if size < 10.0 => format!("{value:.2}"),
         size if size < 100.0 => format!("{value:.1}"),

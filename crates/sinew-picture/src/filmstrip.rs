@@ -4,8 +4,7 @@ use glam::DVec3;
 use tiny_skia::Pixmap;
 
 use crate::arrow::Arrow;
-use crate::canvas::{Canvas, encode};
-use crate::colour::PAPER;
+use crate::canvas::encode;
 use crate::limits::{MAX_WIDTH_PX, MIN_WIDTH_PX};
 use crate::{Camera, Error, Figure, strip};
 
@@ -83,10 +82,7 @@ impl Filmstrip {
     /// When there is no memory for it.
     pub fn draw(&self) -> Result<Pixmap, Error> {
         let width = self.style.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
-        let layout = strip::Layout::new(self, width as f32);
-        let mut canvas = Canvas::new(width, layout.height().ceil() as u32, PAPER)?;
-        layout.paint(&mut canvas, 0.0)?;
-        Ok(canvas.pixmap)
+        Ok(strip::Layout::new(self, width as f32).draw()?.pixmap)
     }
 
     /// Draws the picture as the bytes of a PNG file.

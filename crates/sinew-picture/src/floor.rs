@@ -41,7 +41,7 @@ pub(crate) fn paint(canvas: &mut Canvas, lens: &Lens, figure: &Figure, bottom: f
         return;
     }
     let shadows: Vec<Shadow> = figure.drawable().filter_map(|capsule| Shadow::new(&capsule, lens.origin)).collect();
-    let away = -DVec3::new(lens.view.toward.x, 0.0, lens.view.toward.z).normalize_or_zero();
+    let away = DVec3::Y.cross(lens.view.right);
     let right = lens.view.right;
     let top = (f64::from(lens.at.1) - FAR_M * rise * lens.scale).floor().max(0.0) as u32;
     let bottom = (bottom.ceil().max(0.0) as u32).min(canvas.pixmap.height());
@@ -53,6 +53,7 @@ pub(crate) fn paint(canvas: &mut Canvas, lens: &Lens, figure: &Figure, bottom: f
     for row in top..bottom {
         let depth = (f64::from(lens.at.1) - f64::from(row) - 0.5) / lens.scale / rise;
         let shown = smooth(((FAR_M - depth) / FAR_M) as f32);
+        let near: Vec<&Shadow> = shadows.iter().filter(|shadow| shadow.reaches(depth as f32, away)).collect();
         for column in 0..canvas.pixmap.width() {
             let side = (f64::from(column) + 0.5 - f64::from(lens.at.0)) / lens.scale;
             let offset = right * side + away * depth;
@@ -62,7 +63,7 @@ pub(crate) fn paint(canvas: &mut Canvas, lens: &Lens, figure: &Figure, bottom: f
             let tile = std::array::from_fn(|channel| light[channel] + (dark[channel] - light[channel]) * darkness);
             canvas.blend(column as i32, row as i32, tile, shown);
             let under = Vec2::new(offset.x as f32, offset.z as f32);
-            let shadow = total(&shadows, under);
+            let shadow = total(&near, under);
             if shadow > 0.004 {
                 canvas.blend(column as i32, row as i32, shade, shadow * shown.max(0.25));
             }
@@ -94,6 +95,8 @@ struct Shadow {
     /// Height of the underside over the floor \[m\] at each end.
     gap: (f32, f32),
     radius: (f32, f32),
+    /// Farther from the axis than this there is none of it \[m\].
+    reach: f32,
 }
 
 impl Shadow {
@@ -103,14 +106,26 @@ impl Shadow {
         let gap = (gap(capsule.from, capsule.radius_from_m), gap(capsule.to, capsule.radius_to_m));
         let radius = (capsule.radius_from_m as f32, capsule.radius_to_m as f32);
         // Higher than this its shadow is too faint and wide to see.
-        (gap.0.min(gap.1) < 1.3).then(|| Shadow { from: end(capsule.from), to: end(capsule.to), gap, radius })
+        let reach = radius.0.max(radius.1) * 1.6 + 0.10 + gap.0.max(gap.1) * 0.35;
+        (gap.0.min(gap.1) < 1.3).then(|| Shadow { from: end(capsule.from), to: end(capsule.to), gap, radius, reach })
+    }
+
+    /// Whether any of it lies at this distance from the followed point in the direction `away` \[m\].
+    fn reaches(&self, depth: f32, away: DVec3) -> bool {
+        let away = Vec2::new(away.x as f32, away.z as f32);
+        let (from, to) = (self.from.dot(away), self.to.dot(away));
+        depth >= from.min(to) - self.reach && depth <= from.max(to) + self.reach
     }
 
     /// Contact shadow (dark, close) and ambient shadow (faint, wide) under a point of the floor.
     fn at(&self, point: Vec2) -> (f32, f32) {
         let axis = self.to - self.from;
         let share = ((point - self.from).dot(axis) / axis.length_squared().max(1e-9)).clamp(0.0, 1.0);
-        let away = (point - self.from - axis * share).length();
+        let off = point - self.from - axis * share;
+        if off.length_squared() > self.reach * self.reach {
+            return (0.0, 0.0);
+        }
+        let away = off.length();
         let gap = self.gap.0 + (self.gap.1 - self.gap.0) * share;
         let radius = self.radius.0 + (self.radius.1 - self.radius.0) * share;
         let contact_reach = radius * 1.15 + 0.02 + gap * 0.35;
@@ -123,7 +138,7 @@ impl Shadow {
     }
 }
 
-fn total(shadows: &[Shadow], point: Vec2) -> f32 {
+fn total(shadows: &[&Shadow], point: Vec2) -> f32 {
     let (mut contact, mut light) = (0.0f32, 1.0f32);
     for shadow in shadows {
         let (close, wide) = shadow.at(point);
@@ -139,7 +154,7 @@ pub(crate) fn ruler(canvas: &mut Canvas, lens: &Lens, top: f32, unit: f32) {
     // The world axis that runs more across the picture.
     let along_x = right.x.abs() >= right.z.abs();
     let pick = |vector: DVec3| if along_x { vector.x } else { vector.z };
-    let away = -DVec3::new(lens.view.toward.x, 0.0, lens.view.toward.z).normalize_or_zero();
+    let away = DVec3::Y.cross(lens.view.right);
     let near = if rise(lens) > FLAT { NEAR_M } else { 0.0 };
     let middle = pick(lens.origin) - near * pick(away);
     let slope = pick(right);
@@ -185,7 +200,7 @@ mod tests {
             let ends = (DVec3::new(0.0, height, 0.0), DVec3::new(0.0, height, 0.2));
             Shadow::new(&crate::Capsule::new(ends.0, ends.1, 0.04, crate::Shade::Left), DVec3::ZERO)
         };
-        let dark = |height: f64| total(&[foot(height).unwrap()], Vec2::new(0.0, 0.1));
+        let dark = |height: f64| total(&[&foot(height).unwrap()], Vec2::new(0.0, 0.1));
         assert!(dark(0.04) > 1.5 * dark(0.09), "{} {}", dark(0.04), dark(0.09));
     }
 }

@@ -1,11 +1,11 @@
 //! Bounds that keep any input drawable: what is larger is clamped, never an error and never a panic.
 
 /// Widest picture \[px\]; wider is clamped. A 4K screen is 3840.
-pub const MAX_WIDTH_PX: u32 = 6_000;
+pub const MAX_WIDTH_PX: u32 = 4_000;
 /// Narrowest picture \[px\]; below it no caption fits.
 pub const MIN_WIDTH_PX: u32 = 480;
-/// Tallest picture \[px\]; what would stand below it is cut off.
-pub const MAX_HEIGHT_PX: u32 = 20_000;
+/// Tallest picture \[px\]; what would stand below it is cut off. With the width, at most 200 MB.
+pub const MAX_HEIGHT_PX: u32 = 12_000;
 /// Most panels of one filmstrip; later ones are left out, and the subtitle says so.
 pub const MAX_PANELS: usize = 160;
 /// Most panels side by side.

@@ -2,9 +2,8 @@
 
 use tiny_skia::Pixmap;
 
-use crate::canvas::{Canvas, encode};
-use crate::colour::PAPER;
-use crate::limits::{MAX_HEIGHT_PX, MAX_WIDTH_PX, MIN_WIDTH_PX};
+use crate::canvas::encode;
+use crate::limits::{MAX_WIDTH_PX, MIN_WIDTH_PX};
 use crate::{Colour, Error, chart};
 
 /// One line of a plot.
@@ -108,10 +107,7 @@ impl Plot {
     /// When there is no memory for it.
     pub fn draw(&self) -> Result<Pixmap, Error> {
         let width = self.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
-        let chart = chart::Chart::new(self, width as f32);
-        let mut canvas = Canvas::new(width, (chart.height().ceil() as u32).min(MAX_HEIGHT_PX), PAPER)?;
-        chart.paint(&mut canvas, 0.0);
-        Ok(canvas.pixmap)
+        Ok(chart::Chart::new(self, width as f32).draw()?.pixmap)
     }
 
     /// Draws the picture as the bytes of a PNG file.

@@ -74,11 +74,25 @@ enum Laid<'a> {
     Chart(Chart<'a>),
 }
 
-impl Laid<'_> {
+impl<'a> Laid<'a> {
+    fn new(piece: &'a Piece, width: f32) -> Laid<'a> {
+        match piece {
+            Piece::Filmstrip(strip) => Laid::Strip(strip::Layout::new(strip, width)),
+            Piece::Plot(plot) => Laid::Chart(Chart::new(plot, width)),
+        }
+    }
+
     fn height(&self) -> f32 {
         match self {
             Laid::Strip(strip) => strip.height(),
             Laid::Chart(chart) => chart.height(),
+        }
+    }
+
+    fn draw(&self) -> Result<Canvas, Error> {
+        match self {
+            Laid::Strip(strip) => strip.draw(),
+            Laid::Chart(chart) => chart.draw(),
         }
     }
 }
@@ -91,26 +105,19 @@ impl Sheet {
     pub fn draw(&self) -> Result<Pixmap, Error> {
         let width = self.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
         let unit = width as f32 / 1800.0;
-        let lay = |piece| match piece {
-            &Piece::Filmstrip(ref strip) => Laid::Strip(strip::Layout::new(strip, width as f32)),
-            Piece::Plot(plot) => Laid::Chart(Chart::new(plot, width as f32)),
-        };
-        let laid: Vec<Laid> = self.pieces.iter().take(MAX_PIECES).map(lay).collect();
+        let laid: Vec<Laid> = self.pieces.iter().take(MAX_PIECES).map(|piece| Laid::new(piece, width as f32)).collect();
         let headed = !(self.title.trim().is_empty() && self.subtitle.trim().is_empty());
         let head = if headed { strip::head_height(&self.title, &self.subtitle, false, unit) } else { 0.0 };
         let foot = (44.0 * unit).ceil();
         let height = head + foot + laid.iter().map(Laid::height).sum::<f32>();
         let mut canvas = Canvas::new(width, height.ceil().min(MAX_HEIGHT_PX as f32) as u32, PAPER)?;
-        paint_head(&mut canvas, 0.0, &self.title, &self.subtitle, unit, width as f32 - 24.0 * unit);
+        paint_head(&mut canvas, &self.title, &self.subtitle, unit, width as f32 - 24.0 * unit);
         let mut top = head;
         for piece in &laid {
             if top >= canvas.height() {
                 break;
             }
-            match piece {
-                Laid::Strip(strip) => strip.paint(&mut canvas, top)?,
-                Laid::Chart(chart) => chart.paint(&mut canvas, top),
-            }
+            canvas.paste(0, top as usize, &piece.draw()?);
             top += piece.height();
         }
         self.paint_footer(&mut canvas, unit);

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::arrow::Arrow;
 use crate::body::{Floor, Look, Painter};
 use crate::canvas::{Canvas, Spot};
-use crate::colour::{ARROW, HAIRLINE, INK, INK_SOFT};
+use crate::colour::{ARROW, HAIRLINE, INK, INK_SOFT, PAPER};
 use crate::figure::is_drawable;
 use crate::lens::Lens;
 use crate::limits::{MAX_ARROWS, MAX_COLUMNS, MAX_COORDINATE_M, MAX_PANELS, MAX_VIEW_M};
@@ -26,6 +26,7 @@ pub(crate) struct Layout<'a> {
     floor_m: f64,
     /// Pixels per unit: a picture 1800 px wide has 1.
     unit: f32,
+    width: f32,
     columns: usize,
     left: f32,
     head: f32,
@@ -74,6 +75,7 @@ impl<'a> Layout<'a> {
             view,
             floor_m,
             unit,
+            width,
             columns,
             left: ((width - used) / 2.0).floor(),
             head: head_height(&strip.title, &strip.subtitle, has_legend(panels), unit),
@@ -115,28 +117,28 @@ impl<'a> Layout<'a> {
         Some((spot.0 + corner.0, spot.1 + corner.1))
     }
 
-    /// Paints the strip, its upper edge at `top`.
-    pub fn paint(&self, canvas: &mut Canvas, top: f32) -> Result<(), Error> {
+    pub fn draw(&self) -> Result<Canvas, Error> {
+        let mut sheet = Canvas::new(self.width as u32, self.height() as u32, PAPER)?;
+        let canvas = &mut sheet;
         let subtitle = match self.strip.panels.len() - self.panels().len() {
             0 => self.strip.subtitle.clone(),
             rest => format!("{} (the last {rest} panels are left out)", self.strip.subtitle),
         };
-        let legend = self.paint_legend(canvas, top);
-        paint_head(canvas, top, &self.strip.title, &subtitle, self.unit, legend);
+        let legend = self.paint_legend(canvas);
+        paint_head(canvas, &self.strip.title, &subtitle, self.unit, legend);
         let mut painter = Painter::default();
         for (index, panel) in self.panels().iter().enumerate() {
             let (x, y) = self.corner(index);
-            let y = y + top.round();
             let picture = self.paint_panel(panel, &mut painter)?;
-            canvas.paste(x as i32, y as i32, &picture);
+            canvas.paste(x as usize, y as usize, &picture);
             self.paint_words(canvas, panel, x, y + self.panel_height);
         }
         if self.panels().is_empty() {
             let font = Type::plain(16.0 * self.unit, INK_SOFT);
-            let spot = (MARGIN * self.unit, top + self.head + 24.0 * self.unit);
+            let spot = (MARGIN * self.unit, self.head + 24.0 * self.unit);
             canvas.text(spot, Anchor::Start, font, "no panels");
         }
-        Ok(())
+        Ok(sheet)
     }
 
     fn paint_panel(&self, panel: &Panel, painter: &mut Painter) -> Result<Canvas, Error> {
@@ -150,7 +152,7 @@ impl<'a> Layout<'a> {
         painter.paint(&mut canvas, &lens.solids(&panel.figure), &self.body_look());
         canvas.rect(0.0, self.ruler, self.panel_width, self.panel_height - self.ruler, Colour::hex(0xFFFFFF));
         floor::ruler(&mut canvas, &lens, self.ruler, unit);
-        let mut taken = Vec::new();
+        let mut taken: Vec<[f32; 4]> = arrows(panel).map(|arrow| arrow.tip_box(&lens, unit)).collect();
         for arrow in arrows(panel) {
             arrow.paint(&mut canvas, &lens, self.strongest_n, unit, &mut taken);
         }
@@ -200,7 +202,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Swatches for what the picture holds, at the upper right; returns the left end of them.
-    fn paint_legend(&self, canvas: &mut Canvas, top: f32) -> f32 {
+    fn paint_legend(&self, canvas: &mut Canvas) -> f32 {
         let unit = self.unit;
         let font = Type::plain(14.0 * unit, INK_SOFT);
         let ghost = self.panels().iter().any(|panel| panel.ghost.is_some());
@@ -217,7 +219,7 @@ impl<'a> Layout<'a> {
             rows.push((&name, Colour::hex(0xC6CDD8)));
         }
         let mut right = canvas.width() - MARGIN * unit;
-        let y = top + if self.strip.title.trim().is_empty() { 24.0 } else { 42.0 } * unit;
+        let y = if self.strip.title.trim().is_empty() { 24.0 } else { 42.0 } * unit;
         for (name, colour) in rows.into_iter().rev() {
             right -= font.width(name);
             canvas.text((right, y), Anchor::Start, font, name);
@@ -239,11 +241,11 @@ pub(crate) fn head_height(title: &str, subtitle: &str, legend: bool, unit: f32) 
 }
 
 /// Writes title and subtitle, clear of what begins at `right`.
-pub(crate) fn paint_head(canvas: &mut Canvas, top: f32, title: &str, subtitle: &str, unit: f32, right: f32) {
+pub(crate) fn paint_head(canvas: &mut Canvas, title: &str, subtitle: &str, unit: f32, right: f32) {
     let left = MARGIN * unit;
-    let mut y = top + 16.0 * unit;
+    let mut y = 16.0 * unit;
     if !title.trim().is_empty() {
-        let font = Type::strong(25.0 * unit, INK);
+        let font = Type::strong(24.0 * unit, INK);
         canvas.text((left, y + 26.0 * unit), Anchor::Start, font, &font.fit(title.trim(), right - left));
         y += 34.0 * unit;
     }
