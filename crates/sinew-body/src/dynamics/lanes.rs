@@ -17,7 +17,7 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
-            fn from_lanes(value: impl Fn(usize) -> f64) -> $type {
+            fn from_lanes(value: impl FnMut(usize) -> f64) -> $type {
                 $type::new(std::array::from_fn(value))
             }
 

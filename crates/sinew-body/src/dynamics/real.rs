@@ -33,7 +33,7 @@ pub trait Real:
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
     /// One number per lane, `value(0)` first.
-    fn from_lanes(value: impl Fn(usize) -> f64) -> Self;
+    fn from_lanes(value: impl FnMut(usize) -> f64) -> Self;
     /// The number in one lane.
     ///
     /// # Panics
@@ -68,7 +68,7 @@ impl Real for f64 {
     }
 
     #[inline(always)]
-    fn from_lanes(value: impl Fn(usize) -> f64) -> f64 {
+    fn from_lanes(mut value: impl FnMut(usize) -> f64) -> f64 {
         value(0)
     }
 
