@@ -20,7 +20,7 @@ use sinew_body::dynamics::{
 const STATES: usize = 64;
 
 /// A tree with random inputs.
-struct Case<S> {
+struct Case<S: Real> {
     tree: Tree<S>,
     coordinates: Coordinates<S>,
     base: Base<S>,

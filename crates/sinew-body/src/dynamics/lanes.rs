@@ -3,10 +3,12 @@
 use wide::{f64x4, f64x8};
 
 use super::Real;
+use super::triple::Plain;
 
 macro_rules! lanes {
     ($type:ident, $lanes:literal) => {
         impl Real for $type {
+            type Triple = Plain<$type>;
             const LANES: usize = $lanes;
             const ZERO: $type = $type::ZERO;
             const ONE: $type = $type::ONE;

@@ -4,6 +4,7 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use super::trig;
+use super::triple::{Packed, Triple};
 
 /// A real number, or one per *lane*: several characters of the same topology computed by the same instructions.
 ///
@@ -25,6 +26,8 @@ pub trait Real:
 {
     /// How many numbers stand side by side.
     const LANES: usize;
+    /// How three of them are kept.
+    type Triple: Triple<Self>;
     /// 0 in every lane.
     const ZERO: Self;
     /// 1 in every lane.
@@ -58,6 +61,7 @@ pub trait Real:
 }
 
 impl Real for f64 {
+    type Triple = Packed;
     const LANES: usize = 1;
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
