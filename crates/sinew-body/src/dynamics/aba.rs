@@ -15,7 +15,7 @@ use super::{Accelerations, Base, Inertia, M3, PointForce, Real, State, Tree, V3,
 /// Inertia of a link with everything that hangs on it free to move: the map from the acceleration (α, a) of the link
 /// at the reference point to the wrench (n, f) it takes, n = angular·α + coupling·a, f = couplingᵀ·α + linear·a.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Articulated<S> {
+pub(super) struct Articulated<S: Real> {
     angular: M3<S>,
     coupling: M3<S>,
     coupling_transposed: M3<S>,
@@ -71,7 +71,7 @@ impl<S: Real> AddAssign for Articulated<S> {
 
 /// What back substitution needs of one eliminated axis.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Elimination<S> {
+pub(super) struct Elimination<S: Real> {
     /// The axis, (s, v).
     angular: V3<S>,
     linear: V3<S>,

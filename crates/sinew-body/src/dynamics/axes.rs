@@ -9,7 +9,7 @@ use super::{M3, Real, V3, Wrench};
 /// joint's axes is computed by one vector instruction. Axes that a joint does not have are zero. Momenta have the same
 /// shape, see [`Inertia::momentum`](super::Inertia::momentum).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Axes<S> {
+pub struct Axes<S: Real> {
     /// \[rad/s per unit speed\].
     pub angular: M3<S>,
     /// \[m/s per unit speed\].

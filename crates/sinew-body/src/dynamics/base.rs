@@ -7,7 +7,7 @@ use super::{M3, Real, V3};
 /// For a whole character this is the world at rest. For part of one, such as the body above the pelvis, it is the
 /// link below with its motion prescribed: since a prescribed motion passes nothing back, the torques above are exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Base<S> {
+pub struct Base<S: Real> {
     /// `world_from_base` rotation.
     pub rotation: M3<S>,
     /// Origin of the base's frame \[m\], world.

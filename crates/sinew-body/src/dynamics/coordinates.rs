@@ -14,7 +14,7 @@ pub enum Letter {
 
 /// What a joint's coordinates mean.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Joint<S> {
+pub enum Joint<S: Real> {
     /// No coordinates: the motion is set by hand, or never changes.
     Prescribed,
     /// A turn \[rad\] about a unit axis, the same in the parent's and the link's axes.
@@ -73,7 +73,7 @@ pub enum CoordinatesError {
 /// The joints of a tree, one per link. Positions q and velocities q̇ stand in the order of the links; q has four
 /// numbers for a spherical joint where q̇ has three.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coordinates<S> {
+pub struct Coordinates<S: Real> {
     joints: Vec<Joint<S>>,
     positions: usize,
     velocities: usize,

@@ -25,9 +25,9 @@ pub fn crba<S: Real>(
     links.reference = place_base(tree, base, state, &mut links.placed[0]);
     inertias[0] = Inertia::ZERO;
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate() {
-        let parent = links.placed[node.parent_slot];
-        let placed = &mut links.placed[index + 1];
-        place_still(&parent, node, motion, placed);
+        let (before, placed) = links.placed.split_at_mut(index + 1);
+        let placed = &mut placed[0];
+        place_still(&before[node.parent_slot], node, motion, placed);
         inertias[index + 1] = world_inertia(node, placed);
         axes[index + 1] = world_axes(node, motion, placed);
     }
@@ -59,8 +59,9 @@ pub(super) fn fill_rows<S: Real>(
         let mut slot = link + 1;
         while slot != 0 {
             let above = &nodes[slot - 1];
-            let entries = axes[slot].project(&wrench).to_array();
-            mass.set(row, above.first_dof, &entries[..above.axes]);
+            if above.axes > 0 {
+                mass.set(row, above.first_dof, axes[slot].project(&wrench).to_array(), above.axes);
+            }
             slot = above.parent_slot;
         }
     }

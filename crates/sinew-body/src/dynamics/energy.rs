@@ -20,7 +20,7 @@ fn first_moment<S: Real>(tree: &Tree<S>, links: &Links<S>) -> (S, V3<S>) {
 
 /// Momentum of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Momentum<S> {
+pub struct Momentum<S: Real> {
     /// Linear \[kg m/s\], world axes.
     pub linear: V3<S>,
     /// Angular, about the centre of mass \[kg m²/s\], world axes.

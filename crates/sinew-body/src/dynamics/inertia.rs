@@ -9,7 +9,7 @@ use super::{Axes, M3, Real, Sym3, V3, Wrench};
 /// The inertia of several bodies moving as one is the sum of theirs. The tensor of rotational inertia is
 /// tr(∫x xᵀ dm)·1 − ∫x xᵀ dm; the second moment is kept instead because it turns and shifts with fewer operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inertia<S> {
+pub struct Inertia<S: Real> {
     /// ∫dm \[kg\].
     pub mass: S,
     /// ∫x dm \[kg m\].

@@ -3,12 +3,12 @@
 use super::crba::fill_rows;
 use super::inertia::newton_euler;
 use super::kinematics::{place, place_base, world_axes, world_mass};
-use super::rnea::{joint_load, take_forces};
+use super::rnea::{joint_load, put, take_forces};
 use super::{Base, Inertia, MassMatrix, PointForce, Real, State, Tree, V3, Workspace, Wrench};
 
 /// What [`inverse`] finds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Inverse<S> {
+pub struct Inverse<S: Real> {
     /// Per degree of freedom the generalised force \[N m or N\].
     pub tau: Vec<S>,
     /// Per link all that its joint carries, in the link's axes: the moment about a joint that turns \[N m\], the force
@@ -53,9 +53,9 @@ pub fn inverse<S: Real>(
     wrenches[0] = Wrench::ZERO;
     inertias[0] = Inertia::ZERO;
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate() {
-        let parent = links.placed[node.parent_slot];
-        let placed = &mut links.placed[index + 1];
-        place(&parent, node, motion, motion.acceleration, placed);
+        let (before, placed) = links.placed.split_at_mut(index + 1);
+        let placed = &mut placed[0];
+        place(&before[node.parent_slot], node, motion, motion.acceleration, placed);
         let (arm, second) = world_mass(node, placed);
         let centre = placed.origin + arm;
         let acceleration = placed.acceleration + placed.gradient * arm;
@@ -67,9 +67,8 @@ pub fn inverse<S: Real>(
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate().rev() {
         let wrench = wrenches[index + 1];
         let load = joint_load(node, &links.placed[index + 1], &wrench);
-        let along = (motion.axes * load).to_array();
         out.loads[index] = load;
-        out.tau[node.first_dof..node.first_dof + node.axes].copy_from_slice(&along[..node.axes]);
+        put(motion.axes * load, node, &mut out.tau);
         let composite = inertias[index + 1];
         fill_rows(&tree.nodes, index, &composite, axes, &mut out.mass);
         wrenches[node.parent_slot] += wrench;

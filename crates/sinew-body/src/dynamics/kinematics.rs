@@ -5,7 +5,7 @@ use super::{Axes, Base, Freedom, Inertia, M3, Motion, Real, State, Sym3, Tree, V
 
 /// One link in the world. All vectors are in world axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Placed<S> {
+pub struct Placed<S: Real> {
     /// `world_from_link`.
     pub rotation: M3<S>,
     /// Origin of the link relative to the common reference point \[m\].
@@ -24,7 +24,7 @@ pub struct Placed<S> {
 
 /// Every link in the world, as [`kinematics`] leaves it.
 #[derive(Clone, Debug)]
-pub struct Links<S> {
+pub struct Links<S: Real> {
     /// The common reference point, the origin of the first link that has mass \[m\], world. All positions are kept
     /// relative to it, so that a character a kilometre from the world's origin keeps all its digits.
     pub reference: V3<S>,
@@ -65,10 +65,10 @@ pub fn kinematics<S: Real>(tree: &Tree<S>, base: &Base<S>, state: &State<S>, lin
     assert_eq!(links.placed.len(), tree.nodes.len() + 1, "room for every link");
     links.reference = place_base(tree, base, state, &mut links.placed[0]);
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate() {
-        let parent = links.placed[node.parent_slot];
-        let placed = &mut links.placed[index + 1];
-        place(&parent, node, motion, motion.acceleration, placed);
-        placed.velocity = velocity(&parent, node, motion, placed);
+        let (before, placed) = links.placed.split_at_mut(index + 1);
+        let (parent, placed) = (&before[node.parent_slot], &mut placed[0]);
+        place(parent, node, motion, motion.acceleration, placed);
+        placed.velocity = velocity(parent, node, motion, placed);
     }
 }
 

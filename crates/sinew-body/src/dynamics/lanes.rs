@@ -3,10 +3,12 @@
 use wide::{f64x4, f64x8};
 
 use super::Real;
+use super::triple::Plain;
 
 macro_rules! lanes {
     ($type:ident, $lanes:literal) => {
         impl Real for $type {
+            type Triple = Plain<$type>;
             const LANES: usize = $lanes;
             const ZERO: $type = $type::ZERO;
             const ONE: $type = $type::ONE;
@@ -17,7 +19,7 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
-            fn from_lanes(value: impl Fn(usize) -> f64) -> $type {
+            fn from_lanes(value: impl FnMut(usize) -> f64) -> $type {
                 $type::new(std::array::from_fn(value))
             }
 

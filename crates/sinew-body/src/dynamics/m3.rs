@@ -8,7 +8,7 @@ use super::{Real, V3};
 
 /// A 3 × 3 matrix, by columns: a rotation, or the three axes of a joint by component.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct M3<S> {
+pub struct M3<S: Real> {
     /// The three columns.
     pub columns: [V3<S>; 3],
 }

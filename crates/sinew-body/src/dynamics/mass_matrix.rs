@@ -7,7 +7,7 @@ use super::{Real, Tree};
 /// Degrees of freedom on different branches do not meet: those entries are zero from the start and are never written,
 /// see [`Tree::parent_of_dof`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct MassMatrix<S> {
+pub struct MassMatrix<S: Real> {
     dofs: usize,
     /// Row-major, dofs × dofs.
     entries: Vec<S>,
@@ -52,13 +52,20 @@ impl<S: Real> MassMatrix<S> {
         }
     }
 
-    /// Writes up to three entries that stand side by side, and their mirror images.
+    /// Writes the first `axes` (1 to 3) of the entries side by side, and their mirror images.
     #[inline(always)]
-    pub(super) fn set(&mut self, row: usize, first_column: usize, entries: &[S]) {
-        let start = row * self.dofs + first_column;
-        self.entries[start..start + entries.len()].copy_from_slice(entries);
-        for (column, &entry) in entries.iter().enumerate() {
-            self.entries[(first_column + column) * self.dofs + row] = entry;
+    pub(super) fn set(&mut self, row: usize, first_column: usize, entries: [S; 3], axes: usize) {
+        // Spelled out: a loop would become a call of `memcpy` for at most three numbers.
+        let mut put = |column: usize, entry: S| {
+            self.entries[row * self.dofs + column] = entry;
+            self.entries[column * self.dofs + row] = entry;
+        };
+        put(first_column, entries[0]);
+        if axes > 1 {
+            put(first_column + 1, entries[1]);
+        }
+        if axes > 2 {
+            put(first_column + 2, entries[2]);
         }
     }
 }

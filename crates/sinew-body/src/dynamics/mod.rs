@@ -45,6 +45,7 @@ mod state;
 mod sym3;
 mod tree;
 mod trig;
+mod triple;
 mod v3;
 mod workspace;
 mod wrench;

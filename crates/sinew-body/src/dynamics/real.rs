@@ -4,6 +4,7 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use super::trig;
+use super::triple::{Packed, Triple};
 
 /// A real number, or one per *lane*: several characters of the same topology computed by the same instructions.
 ///
@@ -25,6 +26,8 @@ pub trait Real:
 {
     /// How many numbers stand side by side.
     const LANES: usize;
+    /// How three of them are kept.
+    type Triple: Triple<Self>;
     /// 0 in every lane.
     const ZERO: Self;
     /// 1 in every lane.
@@ -33,7 +36,7 @@ pub trait Real:
     /// The same number in every lane.
     fn splat(value: f64) -> Self;
     /// One number per lane, `value(0)` first.
-    fn from_lanes(value: impl Fn(usize) -> f64) -> Self;
+    fn from_lanes(value: impl FnMut(usize) -> f64) -> Self;
     /// The number in one lane.
     ///
     /// # Panics
@@ -58,6 +61,7 @@ pub trait Real:
 }
 
 impl Real for f64 {
+    type Triple = Packed;
     const LANES: usize = 1;
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
@@ -68,7 +72,7 @@ impl Real for f64 {
     }
 
     #[inline(always)]
-    fn from_lanes(value: impl Fn(usize) -> f64) -> f64 {
+    fn from_lanes(mut value: impl FnMut(usize) -> f64) -> f64 {
         value(0)
     }
 

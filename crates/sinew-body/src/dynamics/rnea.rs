@@ -38,9 +38,7 @@ pub fn rnea<S: Real>(
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate().rev() {
         let wrench = wrenches[index + 1];
         let along = motion.axes * joint_load(node, &links.placed[index + 1], &wrench);
-        for (axis, tau) in tau[node.first_dof..node.first_dof + node.axes].iter_mut().enumerate() {
-            *tau = along.to_array()[axis];
-        }
+        put(along, node, tau);
         wrenches[node.parent_slot] += wrench;
     }
 }
@@ -63,18 +61,40 @@ pub(super) fn link_wrenches<S: Real>(
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate() {
         let acceleration = match accelerations {
             Accelerations::Relative => motion.acceleration,
-            Accelerations::Coordinates(second) => {
-                let mut along = [S::ZERO; 3];
-                along[..node.axes].copy_from_slice(&second[node.first_dof..node.first_dof + node.axes]);
-                motion.acceleration + motion.axes.transpose_times(V3::from_array(along))
-            }
+            Accelerations::Coordinates(second) => motion.acceleration + motion.axes.transpose_times(get(node, second)),
         };
-        let parent = links.placed[node.parent_slot];
-        let placed = &mut links.placed[index + 1];
-        place(&parent, node, motion, acceleration, placed);
+        let (before, placed) = links.placed.split_at_mut(index + 1);
+        let placed = &mut placed[0];
+        place(&before[node.parent_slot], node, motion, acceleration, placed);
         wrenches[index + 1] = own_wrench(node, placed);
     }
     take_forces(links.reference, forces, wrenches);
+}
+
+/// What a link's axes have of one number per degree of freedom. Spelled out, as a loop over at most three would become
+/// a call of `memcpy`.
+#[inline(always)]
+pub(super) fn get<S: Real>(node: &Node<S>, numbers: &[S]) -> V3<S> {
+    let from = &numbers[node.first_dof..node.first_dof + node.axes];
+    match *from {
+        [a, b, c] => V3::new(a, b, c),
+        [a, b] => V3::new(a, b, S::ZERO),
+        [a] => V3::new(a, S::ZERO, S::ZERO),
+        _ => V3::ZERO,
+    }
+}
+
+/// Writes one number per axis of a link.
+#[inline(always)]
+pub(super) fn put<S: Real>(along: V3<S>, node: &Node<S>, numbers: &mut [S]) {
+    let to = &mut numbers[node.first_dof..node.first_dof + node.axes];
+    let [x, y, z] = along.to_array();
+    match to {
+        [a, b, c] => (*a, *b, *c) = (x, y, z),
+        [a, b] => (*a, *b) = (x, y),
+        [a] => *a = x,
+        _ => {}
+    }
 }
 
 /// The wrench that a link's own motion needs.

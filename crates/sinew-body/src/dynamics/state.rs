@@ -8,7 +8,7 @@ use super::{M3, Real, Tree, V3};
 /// acceleration, and in `axes` the directions on which torque is projected and for which the mass matrix is wanted.
 /// A joint described by coordinates is set by [`Coordinates`](super::Coordinates).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion<S> {
+pub struct Motion<S: Real> {
     /// `parent_from_link`; read when the link turns.
     pub rotation: M3<S>,
     /// Displacement of the link's origin from its offset \[m\], parent axes; read when the link slides.
@@ -49,7 +49,7 @@ impl<S: Real> Motion<S> {
 
 /// The motion of every link relative to its parent, in the order of the tree's links.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State<S> {
+pub struct State<S: Real> {
     /// One per link.
     pub motions: Vec<Motion<S>>,
 }

@@ -8,7 +8,7 @@ use super::{M3, Real, V3};
 
 /// A symmetric 3 × 3 matrix. All nine numbers are kept, by columns: adding three more costs less than picking six apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sym3<S> {
+pub struct Sym3<S: Real> {
     columns: [V3<S>; 3],
 }
 

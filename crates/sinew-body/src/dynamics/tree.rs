@@ -16,7 +16,7 @@ pub enum Freedom {
 ///
 /// A joint has at most three axes. A free root is two links: a massless one that slides, and the body that turns on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Link<S> {
+pub struct Link<S: Real> {
     /// Index of the parent, smaller than the link's own; `None` when it hangs from the base.
     pub parent: Option<usize>,
     /// Place of the joint, and of the link's origin when nothing slides, in the parent's frame \[m\].
@@ -70,7 +70,7 @@ pub enum TreeError {
 
 /// What the algorithms read per link. Slot 0 of every per-link array is the base, slot i + 1 is link i.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Node<S> {
+pub(super) struct Node<S: Real> {
     pub parent_slot: usize,
     pub first_dof: usize,
     pub axes: usize,
@@ -93,7 +93,7 @@ pub(super) struct Node<S> {
 /// # Ok::<(), sinew_body::dynamics::TreeError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Tree<S> {
+pub struct Tree<S: Real> {
     links: Vec<Link<S>>,
     pub(super) nodes: Vec<Node<S>>,
     /// The links from the base to the one whose origin is the common reference point, and not further.

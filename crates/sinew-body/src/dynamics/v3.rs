@@ -1,27 +1,25 @@
 //! Vectors of three.
 
+use std::fmt::{Debug, Formatter};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 use glam::DVec3;
 
 use super::Real;
+use super::triple::Triple;
 
 /// Three numbers: the components of a vector, or one number for each of a joint's three axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct V3<S> {
-    x: S,
-    y: S,
-    z: S,
-}
+#[derive(Clone, Copy)]
+pub struct V3<S: Real>(S::Triple);
 
 impl<S: Real> V3<S> {
     /// (0, 0, 0).
-    pub const ZERO: V3<S> = V3 { x: S::ZERO, y: S::ZERO, z: S::ZERO };
+    pub const ZERO: V3<S> = V3(S::Triple::ZERO);
 
     /// From components.
     #[inline(always)]
     pub fn new(x: S, y: S, z: S) -> V3<S> {
-        V3 { x, y, z }
+        V3(S::Triple::new(x, y, z))
     }
 
     /// The same f64 vector in every lane.
@@ -40,31 +38,31 @@ impl<S: Real> V3<S> {
 
     /// The vector in one lane.
     pub fn lane(self, lane: usize) -> DVec3 {
-        DVec3::new(self.x.lane(lane), self.y.lane(lane), self.z.lane(lane))
+        DVec3::from_array(self.to_array().map(|component| component.lane(lane)))
     }
 
     /// First component.
     #[inline(always)]
     pub fn x(self) -> S {
-        self.x
+        self.to_array()[0]
     }
 
     /// Second component.
     #[inline(always)]
     pub fn y(self) -> S {
-        self.y
+        self.to_array()[1]
     }
 
     /// Third component.
     #[inline(always)]
     pub fn z(self) -> S {
-        self.z
+        self.to_array()[2]
     }
 
     /// The three components.
     #[inline(always)]
     pub fn to_array(self) -> [S; 3] {
-        [self.x, self.y, self.z]
+        self.0.to_array()
     }
 
     /// From an array of components.
@@ -76,18 +74,15 @@ impl<S: Real> V3<S> {
     /// Scalar product.
     #[inline(always)]
     pub fn dot(self, other: V3<S>) -> S {
-        self.x * other.x + self.y * other.y + self.z * other.z
+        let ([a, b, c], [x, y, z]) = (self.to_array(), other.to_array());
+        a * x + b * y + c * z
     }
 
     /// Vector product, self × other.
     #[inline(always)]
     #[must_use]
     pub fn cross(self, other: V3<S>) -> V3<S> {
-        V3::new(
-            self.y * other.z - self.z * other.y,
-            self.z * other.x - self.x * other.z,
-            self.x * other.y - self.y * other.x,
-        )
+        V3(self.0.cross(other.0))
     }
 
     /// self + vector · factor.
@@ -105,11 +100,30 @@ impl<S: Real> V3<S> {
     }
 }
 
+impl<S: Real> Default for V3<S> {
+    fn default() -> V3<S> {
+        V3::ZERO
+    }
+}
+
+impl<S: Real + PartialEq> PartialEq for V3<S> {
+    fn eq(&self, other: &V3<S>) -> bool {
+        self.to_array() == other.to_array()
+    }
+}
+
+impl<S: Real> Debug for V3<S> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        let [x, y, z] = self.to_array();
+        f.debug_tuple("V3").field(&x).field(&y).field(&z).finish()
+    }
+}
+
 impl<S: Real> Add for V3<S> {
     type Output = V3<S>;
     #[inline(always)]
     fn add(self, other: V3<S>) -> V3<S> {
-        V3::new(self.x + other.x, self.y + other.y, self.z + other.z)
+        V3(self.0 + other.0)
     }
 }
 
@@ -117,7 +131,7 @@ impl<S: Real> Sub for V3<S> {
     type Output = V3<S>;
     #[inline(always)]
     fn sub(self, other: V3<S>) -> V3<S> {
-        V3::new(self.x - other.x, self.y - other.y, self.z - other.z)
+        V3(self.0 - other.0)
     }
 }
 
@@ -125,7 +139,7 @@ impl<S: Real> Neg for V3<S> {
     type Output = V3<S>;
     #[inline(always)]
     fn neg(self) -> V3<S> {
-        V3::new(-self.x, -self.y, -self.z)
+        V3(-self.0)
     }
 }
 
@@ -133,7 +147,7 @@ impl<S: Real> Mul<S> for V3<S> {
     type Output = V3<S>;
     #[inline(always)]
     fn mul(self, factor: S) -> V3<S> {
-        V3::new(self.x * factor, self.y * factor, self.z * factor)
+        V3(self.0.scaled(factor))
     }
 }
 
@@ -153,12 +167,12 @@ impl<S: Real> SubAssign for V3<S> {
 
 impl From<DVec3> for V3<f64> {
     fn from(vector: DVec3) -> V3<f64> {
-        V3::new(vector.x, vector.y, vector.z)
+        V3::splat(vector)
     }
 }
 
 impl From<V3<f64>> for DVec3 {
     fn from(vector: V3<f64>) -> DVec3 {
-        DVec3::new(vector.x, vector.y, vector.z)
+        vector.lane(0)
     }
 }

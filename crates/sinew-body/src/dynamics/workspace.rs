@@ -6,7 +6,7 @@ use super::{Axes, Inertia, Links, Real, Tree, Wrench};
 /// Scratch memory of the algorithms, made once per tree. What it holds between calls means nothing, except
 /// [`Workspace::links`] and [`Workspace::reaction`].
 #[derive(Clone, Debug)]
-pub struct Workspace<S> {
+pub struct Workspace<S: Real> {
     pub(super) links: Links<S>,
     pub(super) wrenches: Vec<Wrench<S>>,
     pub(super) inertias: Vec<Inertia<S>>,

@@ -8,7 +8,7 @@ use super::{Real, V3};
 ///
 /// Because every wrench is about the same point, wrenches of different links simply add.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Wrench<S> {
+pub struct Wrench<S: Real> {
     /// Moment about the reference \[N m\], world axes.
     pub moment: V3<S>,
     /// Force \[N\], world axes.
@@ -36,7 +36,7 @@ impl<S: Real> AddAssign for Wrench<S> {
 
 /// A force that acts on a link from outside: a push, a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointForce<S> {
+pub struct PointForce<S: Real> {
     /// Index of the link pushed.
     pub link: usize,
     /// Where it acts \[m\], world.
