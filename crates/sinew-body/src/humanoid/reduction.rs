@@ -2,7 +2,7 @@
 
 use super::anthropometry::{STANDARD_STATURE_M, standard_offset, standard_tip};
 use super::calibration::{self, Samples, position};
-use super::{Body, Node, Pose};
+use super::{Body, Node, Pose, Shape};
 use glam::{DQuat, DVec3};
 use sinew_motion::{Clip, Humanoid, Part, Transform};
 
@@ -62,6 +62,7 @@ pub struct Reduction {
     /// Likewise between chest and head.
     pub(super) neck: Vec<(usize, f64)>,
     pub(super) parents: Vec<Option<usize>>,
+    reference: Vec<Transform>,
     body_metres_per_clip_metre: f64,
 }
 
@@ -117,6 +118,7 @@ impl Reduction {
             spine: shares(humanoid.spine_chain()),
             neck: shares(humanoid.neck_chain()),
             parents: clip.skeleton().joints().iter().map(|joint| joint.parent).collect(),
+            reference: samples.reference,
             body_metres_per_clip_metre: scale,
         })
     }
@@ -134,6 +136,37 @@ impl Reduction {
     /// The joint that carries a node; `None` where the skeleton has none (then the node turns with its parent).
     pub fn joint(&self, node: Node) -> Option<usize> {
         self.carriers[node.index()].map(|carrier| carrier.joint)
+    }
+
+    /// The body's shapes on the skeleton's own joints: for each node the joint that carries it (or its parent) and its
+    /// capsule in that joint's frame, in metres of the clip.
+    pub fn shapes(&self) -> Vec<(Node, usize, Shape)> {
+        let scale = self.body_metres_per_clip_metre;
+        let pose = self.pose(&self.reference);
+        let positions = pose.positions(&self.body);
+        Node::ALL
+            .into_iter()
+            .filter_map(|node| {
+                let mut carrying = node;
+                while self.joint(carrying).is_none() {
+                    carrying = carrying.parent()?;
+                }
+                let joint = self.joint(carrying)?;
+                let joint_from_world = self.reference[joint].inverse();
+                let place = |point: DVec3| {
+                    let in_world = positions[node.index()] + pose.world[node.index()] * point;
+                    joint_from_world.point(in_world / scale)
+                };
+                let shape = self.body.link(node).shape;
+                let shape = Shape {
+                    from: place(shape.from),
+                    to: place(shape.to),
+                    from_radius_m: shape.from_radius_m / scale,
+                    to_radius_m: shape.to_radius_m / scale,
+                };
+                Some((node, joint, shape))
+            })
+            .collect()
     }
 
     /// `world_from_node` of all nodes from the `world_from_joint` of all joints; positions in the clip's own metres.

@@ -7,6 +7,7 @@ pub mod amc;
 mod body_shape;
 pub mod bvh;
 mod document;
+mod file;
 pub mod fbx;
 pub mod gltf;
 mod rate;
@@ -14,3 +15,4 @@ mod text;
 
 pub use body_shape::BodyShape;
 pub use document::{Document, Format, Parsed, Source, WriteJob};
+pub use file::{MotionFile, ReadOptions, write, write_whole};

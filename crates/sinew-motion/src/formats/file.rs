@@ -1,0 +1,222 @@
+//! A motion file as users mean it: read whatever the format, in metres, Y up, with its body parts found.
+
+use super::{BodyShape, Document, Format, Parsed, Source, WriteJob, amc, bvh, fbx, gltf};
+use crate::{Clip, Error, Humanoid, Limits, Note, Part, Place, SourceSpace, guess_space, stature};
+use std::fs;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+/// How a file is to be read.
+#[derive(Clone, Debug, Default)]
+pub struct ReadOptions {
+    /// The ASF skeleton of an AMC motion; otherwise it is looked for beside the motion.
+    pub skeleton: Option<PathBuf>,
+    /// Length of one file unit \[m\]; otherwise what the file states, or a guess by stature.
+    pub unit_m: Option<f64>,
+    /// Joints to take for parts, before anything is guessed.
+    pub parts: Vec<(Part, String)>,
+    /// What the file may ask of us.
+    pub limits: Limits,
+}
+
+/// A motion file, read.
+#[derive(Clone, Debug)]
+pub struct MotionFile {
+    /// Where it was read from; empty when it came from memory.
+    pub path: PathBuf,
+    /// Its format.
+    pub format: Format,
+    /// The motion in metres, Y up.
+    pub clip: Clip,
+    /// The file's unit and axes.
+    pub space: SourceSpace,
+    /// Which joint is which part, or why the skeleton is no human body.
+    pub humanoid: Result<Humanoid, Error>,
+    /// Standing height of the body \[m\]; 0 where it is none.
+    pub stature_m: f64,
+    /// What was guessed, repaired or lost.
+    pub notes: Vec<Note>,
+    document: Document,
+}
+
+impl MotionFile {
+    /// Reads a motion file; the extension tells the format.
+    ///
+    /// ```no_run
+    /// use sinew_motion::formats::{MotionFile, ReadOptions};
+    /// let file = MotionFile::read("walk.bvh".as_ref(), &ReadOptions::default())?;
+    /// println!("{} frames, {:.2} m tall", file.clip.frames(), file.stature_m);
+    /// # Ok::<(), sinew_motion::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A file that cannot be opened, is broken or goes beyond the limits. A skeleton that is no human body is no error:
+    /// see [`MotionFile::humanoid`].
+    pub fn read(path: &Path, options: &ReadOptions) -> Result<MotionFile, Error> {
+        let format = format_of(path)?;
+        let limits = &options.limits;
+        let parsed = match format {
+            Format::Bvh => bvh::read(&bytes_of(path, limits)?, limits),
+            Format::Fbx => fbx::read(&bytes_of(path, limits)?, limits),
+            Format::Gltf | Format::Glb => gltf::read(path, limits),
+            Format::Amc => {
+                let skeleton = amc::find_skeleton(path, options.skeleton.as_deref())?;
+                amc::read(&bytes_of(path, limits)?, &bytes_of(&skeleton, limits)?, limits)
+            }
+        }
+        .map_err(|error| error.in_file(path))?;
+        MotionFile::understood(path.to_owned(), format, parsed, options)
+    }
+
+    /// Reads a BVH from memory.
+    ///
+    /// # Errors
+    /// As [`MotionFile::read`].
+    pub fn from_bvh(bytes: &[u8], options: &ReadOptions) -> Result<MotionFile, Error> {
+        let parsed = bvh::read(bytes, &options.limits)?;
+        MotionFile::understood(PathBuf::new(), Format::Bvh, parsed, options)
+    }
+
+    fn understood(
+        path: PathBuf,
+        format: Format,
+        parsed: Parsed,
+        options: &ReadOptions,
+    ) -> Result<MotionFile, Error> {
+        if let Some(unit_m) = options.unit_m
+            && !(1e-6..=1e3).contains(&unit_m)
+        {
+            let problem = format!("a unit of {unit_m} m is out of range");
+            return Err(Error::new(Place::File, problem, "give metres per file unit, such as 0.01").in_file(&path));
+        }
+        let unit_m = options.unit_m.or(parsed.unit_m);
+        let humanoid = Humanoid::of(&parsed.clip, &options.parts).map_err(|error| error.in_file(&path));
+        if let (Err(error), false) = (&humanoid, options.parts.is_empty()) {
+            // Who names parts means a body.
+            return Err(error.clone());
+        }
+        let mut notes = parsed.notes;
+        let (space, clip, stature_m) = match &humanoid {
+            Ok(humanoid) => {
+                let guess = guess_space(&parsed.clip, humanoid, unit_m, parsed.world_from_source);
+                notes.extend(guess.notes);
+                notes.extend(humanoid.notes().iter().cloned());
+                let clip = guess.space.clip_to_world(&parsed.clip);
+                let stature_m = stature(&clip, humanoid);
+                (guess.space, clip, stature_m)
+            }
+            Err(_) => {
+                let world_from_source = parsed.world_from_source.unwrap_or(glam::DQuat::IDENTITY);
+                let space = SourceSpace { unit_m: unit_m.unwrap_or(1.0), world_from_source };
+                (space, space.clip_to_world(&parsed.clip), 0.0)
+            }
+        };
+        if let Some((frame, joint)) = clip.first_non_finite() {
+            let joint = &clip.skeleton().joints()[joint].name;
+            let problem = format!("frame {frame}, joint {joint:?}: not a number once in metres");
+            return Err(Error::new(Place::File, problem, "check the values and the unit").in_file(&path));
+        }
+        Ok(MotionFile { path, format, clip, space, humanoid, stature_m, notes, document: parsed.document })
+    }
+
+    /// The human body in the file.
+    ///
+    /// # Errors
+    /// Where the skeleton is none: why.
+    pub fn body_parts(&self) -> Result<&Humanoid, Error> {
+        self.humanoid.as_ref().map_err(Clone::clone)
+    }
+
+    /// Writes a motion to a file of the format that its extension names. Of the file's own format it is that file again,
+    /// with nothing changed but what differs in `clip`; `rows` gives for each frame of `clip` the frame of this file that it
+    /// came from. `body` is what a glTF made anew shows.
+    ///
+    /// A file appears whole or not at all; what could not be said in the format comes back as notes.
+    ///
+    /// # Errors
+    /// A format that cannot be written, a motion that the format cannot hold, or a folder that cannot be written to.
+    pub fn write(&self, path: &Path, clip: &Clip, rows: &[usize], body: &[BodyShape]) -> Result<Vec<Note>, Error> {
+        let source = Source { document: &self.document, clip: &self.clip, space: self.space, rows };
+        write(path, &WriteJob { clip, source: Some(source) }, body)
+    }
+}
+
+/// Writes a motion to a file of the format that its extension names, see [`MotionFile::write`]. An `.amc` made anew gets its
+/// `.asf` beside it.
+///
+/// # Errors
+/// As [`MotionFile::write`].
+pub fn write(path: &Path, job: &WriteJob, body: &[BodyShape]) -> Result<Vec<Note>, Error> {
+    let mut bytes = Vec::new();
+    let mut notes = Vec::new();
+    match format_of(path)? {
+        Format::Bvh => bvh::write(&mut bytes, job),
+        Format::Amc => {
+            let again = matches!(job.source, Some(Source { document: Document::Amc(_), .. }));
+            if !again {
+                let mut skeleton = Vec::new();
+                let beside = path.with_extension("asf");
+                amc::write_skeleton(&mut skeleton, job.clip).map_err(|error| error.in_file(&beside))?;
+                write_whole(&beside, &skeleton)?;
+            }
+            amc::write_nearest(&mut bytes, job).map(|lost| notes = lost)
+        }
+        format @ (Format::Gltf | Format::Glb) => gltf::write(&mut bytes, job, format, body),
+        Format::Fbx => Err(Error::new(
+            Place::File,
+            "FBX can be read but not written",
+            "write .glb or .bvh, which every program that reads FBX reads too",
+        )),
+    }
+    .map_err(|error| error.in_file(path))?;
+    write_whole(path, &bytes)?;
+    Ok(notes)
+}
+
+fn format_of(path: &Path) -> Result<Format, Error> {
+    Format::of(path).ok_or_else(|| {
+        let problem = match path.extension() {
+            Some(extension) => format!("unknown format .{}", extension.display()),
+            None => "no extension tells its format".to_owned(),
+        };
+        Error::new(Place::File, problem, "use .bvh, .amc (with .asf), .glb, .gltf, or .fbx (read only)").in_file(path)
+    })
+}
+
+/// The bytes of a file that is not larger than allowed.
+fn bytes_of(path: &Path, limits: &Limits) -> Result<Vec<u8>, Error> {
+    let io = |error: std::io::Error| Error::io(path, &error);
+    let file = fs::File::open(path).map_err(io)?;
+    if !file.metadata().map_err(io)?.is_file() {
+        return Err(Error::new(Place::File, "this is no file", "name a motion file").in_file(path));
+    }
+    let mut bytes = Vec::new();
+    // One more than allowed, so that a file that grows while it is read is caught too.
+    file.take(limits.file_bytes + 1).read_to_end(&mut bytes).map_err(io)?;
+    if bytes.len() as u64 > limits.file_bytes {
+        let problem = format!("larger than the {} bytes allowed", limits.file_bytes);
+        return Err(Error::new(Place::File, problem, "cut the motion into shorter files").in_file(path));
+    }
+    Ok(bytes)
+}
+
+/// Writes a file beside its place and moves it there, so that a full disk or a crash never leaves half of it, nor costs
+/// what was there before.
+///
+/// # Errors
+/// When the folder cannot be written to.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let io = |error: std::io::Error| Error::io(path, &error);
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let beside = path.with_file_name(name);
+    let written = fs::File::create(&beside).and_then(|mut file| {
+        file.write_all(bytes)?;
+        file.sync_all()
+    });
+    let moved = written.and_then(|()| fs::rename(&beside, path));
+    if moved.is_err() {
+        let _ = fs::remove_file(&beside);
+    }
+    moved.map_err(io)
+}
