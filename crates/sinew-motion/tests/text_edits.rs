@@ -1,4 +1,5 @@
 //! Writing a changed motion over its file: what changes, and what does not.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod text;
 

@@ -1,4 +1,5 @@
 //! Broken and evil text files: an error with a remedy or a motion, never a panic, a hang or a flood of memory.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 #[path = "../../../fuzz/src/text.rs"]
 mod fuzz;

@@ -19,7 +19,7 @@
 //! # What is written
 //!
 //! With an AMC behind it ([`WriteJob::source`]): that file again, byte for byte, with only the values replaced whose
-//! rotation or translation has changed. Otherwise a new pair: [`write_skeleton`] and [`write`], with `length 0.45`.
+//! rotation or translation has changed. Otherwise a new pair: [`write_skeleton`] and [`write()`], with `length 0.45`.
 //! Joint frames are turned as for a new BVH; where the children of a joint do not all hang at one place, bones without
 //! `dof` lead to them, as CMU's `lhipjoint` does.
 
@@ -66,6 +66,15 @@ pub fn read_skeleton(bytes: &[u8], limits: &Limits) -> Result<Asf, Error> {
 ///
 /// The clip is in the file's units and axes, see [`Parsed::clip`].
 ///
+/// ```
+/// use sinew_motion::{Limits, formats::amc};
+/// let asf = ":bonedata\nbegin\nname spine\ndirection 0 1 0\nlength 10\ndof rx\nend\n:hierarchy\nroot spine\n";
+/// let motion = ":DEGREES\n1\nroot 0 17 0 0 0 0\nspine 30\n";
+/// let parsed = amc::read(motion.as_bytes(), asf.as_bytes(), &Limits::default())?;
+/// assert_eq!(parsed.clip.translation(0, 0).y, 17.0);
+/// # Ok::<(), sinew_motion::Error>(())
+/// ```
+///
 /// # Errors
 /// As [`read_skeleton`] (the message then says that the line is the skeleton's); a motion that is no AMC, is broken,
 /// belongs to another skeleton, or goes beyond the limits.
@@ -104,11 +113,11 @@ pub fn write(out: &mut dyn Write, job: &WriteJob) -> Result<(), Error> {
     write_with(out, job, Losses::refused()).map(|_| ())
 }
 
-/// As [`write`], but what the source's `dof` cannot hold is left out and told in the notes: a knee of one axis keeps
+/// As [`write()`], but what the source's `dof` cannot hold is left out and told in the notes: a knee of one axis keeps
 /// the nearest angle about that axis.
 ///
 /// # Errors
-/// As [`write`], losses excepted.
+/// As [`write()`], losses excepted.
 pub fn write_nearest(out: &mut dyn Write, job: &WriteJob) -> Result<Vec<Note>, Error> {
     write_with(out, job, Losses::noted())
 }
@@ -125,7 +134,7 @@ fn write_with(out: &mut dyn Write, job: &WriteJob, mut losses: Losses) -> Result
     Ok(Vec::new())
 }
 
-/// Writes a new skeleton for a clip in metres and Y up; [`write`] without an AMC source writes the motion to it.
+/// Writes a new skeleton for a clip in metres and Y up; [`write()`] without an AMC source writes the motion to it.
 ///
 /// # Errors
 /// A clip with no joints or with several roots, which an ASF cannot hold; and errors of `out`.

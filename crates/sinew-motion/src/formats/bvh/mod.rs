@@ -78,6 +78,19 @@ pub fn read(bytes: &[u8], limits: &Limits) -> Result<Parsed, Error> {
 /// Writes a BVH file: the source again with only the changed values replaced where the source is a BVH, a new file
 /// otherwise (see the [module](self)).
 ///
+/// ```
+/// use sinew_motion::{Clip, Joint, Limits, Skeleton, Transform, formats::{WriteJob, bvh}};
+/// let mut skeleton = Skeleton::new();
+/// let hips = skeleton.push(Joint { name: "hips".into(), parent: None, rest: Transform::IDENTITY, tip: None });
+/// let mut clip = Clip::new(skeleton, 1.0 / 60.0, vec![hips]);
+/// clip.push(&[Transform::new(glam::DQuat::IDENTITY, glam::DVec3::Y)]);
+/// let mut file = Vec::new();
+/// bvh::write(&mut file, &WriteJob { clip: &clip, source: None })?;
+/// let again = bvh::read(&file, &Limits::default())?;
+/// assert_eq!(again.clip.translation(0, hips).y, 100.0, "centimetres");
+/// # Ok::<(), sinew_motion::Error>(())
+/// ```
+///
 /// # Errors
 /// A motion that does not fit its source (joints, rows), that the source has no channels for (more than 1e-6 m or
 /// 1e-5 rad; see [`write_nearest`]), or that is not finite; and errors of `out`.
@@ -85,10 +98,10 @@ pub fn write(out: &mut dyn Write, job: &WriteJob) -> Result<(), Error> {
     write_with(out, job, Losses::refused()).map(|_| ())
 }
 
-/// As [`write`], but what the source has no channels for is left out and told in the notes.
+/// As [`write()`], but what the source has no channels for is left out and told in the notes.
 ///
 /// # Errors
-/// As [`write`], losses excepted.
+/// As [`write()`], losses excepted.
 pub fn write_nearest(out: &mut dyn Write, job: &WriteJob) -> Result<Vec<Note>, Error> {
     write_with(out, job, Losses::noted())
 }

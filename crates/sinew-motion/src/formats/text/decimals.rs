@@ -37,13 +37,13 @@ impl Decimals {
     }
 }
 
-/// Appends the value, or the file's own word where that would print alike.
+/// Appends the value, or the file's own word where that is as near to it as so many decimals come.
 pub(crate) fn replace(text: &mut Vec<u8>, word: &[u8], old: f64, value: f64, decimals: usize) {
-    let printed = fixed(value, decimals);
-    if printed == fixed(old, decimals) {
+    let half_a_digit = (0..decimals).fold(0.5, |digit, _| digit / 10.0);
+    if (value - old).abs() < half_a_digit {
         text.extend_from_slice(word);
     } else {
-        text.extend_from_slice(printed.as_bytes());
+        text.extend_from_slice(fixed(value, decimals).as_bytes());
     }
 }
 
