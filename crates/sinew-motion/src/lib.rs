@@ -38,7 +38,7 @@ pub use gait::{Cycle, find_cycle};
 pub use humanoid::{Humanoid, Origin};
 pub use limits::Limits;
 pub use note::Note;
-pub use part::{Part, Side};
+pub use part::{Part, Side, UnknownPart};
 pub use repeat::{Repeated, repeat};
 pub use resample::resample;
 pub use skeleton::{Joint, Skeleton};

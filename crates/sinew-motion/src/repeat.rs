@@ -1,7 +1,7 @@
 //! A gait cycle, played again and again.
 
 use crate::facing::{facing, heading};
-use crate::{Clip, Cycle, Humanoid, Transform};
+use crate::{Clip, Humanoid, Transform};
 use glam::{DQuat, DVec3};
 
 /// Time on each side of a seam over which the speeds of both sides are brought together \[s\].
@@ -16,7 +16,7 @@ pub struct Repeated {
     pub rows: Vec<usize>,
 }
 
-/// The cycle `times` times in a row and its closing frame: `times × (last − first) + 1` frames, in metres and Y up. Nothing before
+/// The cycle from frame `first` to frame `last` (the same moment one stride later) `times` times in a row and its closing frame: `times × (last − first) + 1` frames, in metres and Y up. Nothing before
 /// or after the cycle is kept.
 ///
 /// Each round goes on where the one before ended: the roots are moved by the cycle's horizontal displacement of the hips
@@ -27,8 +27,7 @@ pub struct Repeated {
 ///
 /// # Panics
 /// If the cycle is not within the clip or does not go forward.
-pub fn repeat(clip: &Clip, humanoid: &Humanoid, cycle: &Cycle, times: usize) -> Repeated {
-    let (first, last) = (cycle.first, cycle.last);
+pub fn repeat(clip: &Clip, humanoid: &Humanoid, (first, last): (usize, usize), times: usize) -> Repeated {
     assert!(first < last && last < clip.frames(), "a cycle goes forward within its clip");
     let skeleton = clip.skeleton().clone();
     let joints = skeleton.len();

@@ -66,6 +66,11 @@ impl Basis {
         })
     }
 
+    /// This basis with the directions and spectrum of another motion's: another person's or style's actuation on this body.
+    pub fn with_directions_of(&self, other: &Basis) -> Basis {
+        Basis { inertia: self.inertia, ..other.clone() }
+    }
+
     /// Mean square torque along each direction \[(N m)²\], descending.
     pub fn eigenvalues(&self) -> &[f64; UPPER_DOFS] {
         &self.eigenvalues

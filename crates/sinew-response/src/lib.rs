@@ -52,6 +52,6 @@ pub use motion::Motion;
 pub use push::{GroundJerk, Push, PushFrame};
 pub use response::{Report, Response};
 pub use settings::{Coordinates, Preset, Settings};
-pub use stability::growth;
+pub use stability::{growth, stable_compliance};
 pub use torque::torques;
 pub use track::{Disturbances, Track};

@@ -39,6 +39,42 @@ pub fn growth(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) 
     eigenvalues.iter().map(|value| (value.re * value.re + value.im * value.im).sqrt()).fold(0.0, f64::max)
 }
 
+/// Small deviations must shrink to this or less over a stretch, for the compliance dial to be turned so far.
+const GROWTH_ALLOWED: f64 = 0.9;
+
+/// Poses in one stretch of a long motion: about a stride.
+const STRETCH: usize = 72;
+
+/// How many stretches of a long motion are looked at.
+const STRETCHES: usize = 6;
+
+/// Halvings on the way to the loosest stable dial.
+const HALVINGS: usize = 6;
+
+/// The compliance of `settings`, or the loosest below it at which small deviations die out on this motion. A motion longer
+/// than two strides is judged by several stretches of it, each as if it repeated.
+pub fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
+    let stretches: Vec<&[Pose]> = if motion.len() <= 2 * STRETCH {
+        vec![motion]
+    } else {
+        let room = motion.len() - STRETCH;
+        (0..STRETCHES).map(|index| index * room / (STRETCHES - 1)).map(|at| &motion[at..at + STRETCH]).collect()
+    };
+    let holds = |compliance: f64| {
+        let settings = Settings { compliance, ..*settings };
+        stretches.iter().all(|stretch| growth(body, basis, &settings, stretch) <= GROWTH_ALLOWED)
+    };
+    if holds(settings.compliance) {
+        return settings.compliance;
+    }
+    let (mut stable, mut unstable) = (Settings::MIN_COMPLIANCE, settings.compliance);
+    for _ in 0..HALVINGS {
+        let middle = (stable * unstable).sqrt();
+        if holds(middle) { stable = middle } else { unstable = middle }
+    }
+    stable
+}
+
 /// The step from the middle pose to the last, as a matrix over deviation and growth.
 fn linearised(response: &mut Response, [before, now, next]: [&Pose; 3]) -> DMatrix<f64> {
     let mut matrix = DMatrix::zeros(STATE, STATE);

@@ -97,6 +97,11 @@ impl Track {
         &self.forces
     }
 
+    /// Time of a pose, from the clip's first frame \[s\].
+    pub fn secs(&self, index: usize) -> f64 {
+        self.start_secs + index as f64 * self.time_step_secs
+    }
+
     /// The deviation at a time from the clip's first frame \[s\], between poses by a cubic through its neighbours
     /// (Catmull-Rom), before the first and after the last that of the nearest pose.
     pub fn deviation_at(&self, secs: f64) -> Deviation {

@@ -1,1 +1,26 @@
-//! placeholder
+//! Sinew makes animated characters answer to physics.
+//!
+//! This crate is the façade: it re-exports the rooms of the library and holds the jobs that the command line runs.
+//!
+//! | module | is the place for |
+//! |---|---|
+//! | [`motion`] | skeletons, clips, motion files |
+//! | [`body`] | masses, limits, kinematics and dynamics |
+//! | [`response`] | a motion answers to pushes |
+//! | [`picture`] | filmstrips and plots |
+//! | [`respond`] | the whole job of `sinew respond`: a file in, an answered file out |
+//! | [`inspect`] | what a motion file is and what Sinew makes of it |
+
+pub use sinew_body as body;
+pub use sinew_motion as motion;
+pub use sinew_picture as picture;
+pub use sinew_response as response;
+
+pub mod figure;
+pub mod inspect;
+pub mod respond;
+/// temp
+pub mod sample {
+    /// temp
+    pub static WALK_BVH: &[u8] = b"";
+}

@@ -150,14 +150,21 @@ pub fn write(path: &Path, job: &WriteJob, body: &[BodyShape]) -> Result<Vec<Note
     let mut bytes = Vec::new();
     let mut notes = Vec::new();
     match format_of(path)? {
-        Format::Bvh => bvh::write(&mut bytes, job),
+        Format::Bvh => bvh::write_nearest(&mut bytes, job).map(|lost| notes = lost),
         Format::Amc => {
-            let again = matches!(job.source, Some(Source { document: Document::Amc(_), .. }));
-            if !again {
-                let mut skeleton = Vec::new();
-                let beside = path.with_extension("asf");
-                amc::write_skeleton(&mut skeleton, job.clip).map_err(|error| error.in_file(&beside))?;
-                write_whole(&beside, &skeleton)?;
+            let beside = path.with_extension("asf");
+            match job.source {
+                // The skeleton comes along where the new place has none.
+                Some(Source { document: Document::Amc(document), .. }) => {
+                    if amc::find_skeleton(path, None).is_err() {
+                        write_whole(&beside, document.skeleton_bytes())?;
+                    }
+                }
+                _ => {
+                    let mut skeleton = Vec::new();
+                    amc::write_skeleton(&mut skeleton, job.clip).map_err(|error| error.in_file(&beside))?;
+                    write_whole(&beside, &skeleton)?;
+                }
             }
             amc::write_nearest(&mut bytes, job).map(|lost| notes = lost)
         }

@@ -1,0 +1,82 @@
+//! The command line: arguments in, jobs of the library, words out.
+
+mod convert;
+mod inspect;
+mod output;
+mod push_argument;
+mod respond;
+
+use clap::{Parser, Subcommand};
+use sinew::motion::formats::ReadOptions;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Animated characters that answer to physics.
+#[derive(Debug, Parser)]
+#[command(version, propagate_version = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Say what a motion file is and what Sinew makes of it.
+    Inspect(inspect::Inspect),
+    /// Convert a motion file into another format.
+    Convert(convert::Convert),
+    /// Push a character and get back how it yields and recovers.
+    Respond(respond::Respond),
+}
+
+/// How a motion file is to be read.
+#[derive(Debug, clap::Args)]
+struct Reading {
+    /// Length of one unit of the file in metres (0.01 for centimetres) instead of a guess.
+    #[arg(long, value_name = "METRES")]
+    units: Option<f64>,
+    /// The .asf skeleton of an .amc motion, when it is not beside it.
+    #[arg(long, value_name = "S.asf")]
+    skeleton: Option<PathBuf>,
+}
+
+impl Reading {
+    fn options(&self) -> ReadOptions {
+        ReadOptions { skeleton: self.skeleton.clone(), unit_m: self.units, ..ReadOptions::default() }
+    }
+}
+
+/// Whom the character is taken to be.
+#[derive(Debug, clap::Args)]
+struct Who {
+    /// Mass of the body in kilograms.
+    #[arg(long, value_name = "KG", default_value_t = 80.0)]
+    mass: f64,
+    /// Height of the body in metres instead of the skeleton's own.
+    #[arg(long, value_name = "M")]
+    height: Option<f64>,
+}
+
+impl Who {
+    fn person(&self) -> sinew::body::humanoid::Person {
+        sinew::body::humanoid::Person { mass_kg: self.mass, height_m: self.height }
+    }
+}
+
+/// Runs the command: 0 done, 1 failed, 2 wrong usage (clap's own).
+pub(crate) fn run() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Inspect(command) => command.run(),
+        Command::Convert(command) => command.run(),
+        Command::Respond(command) => command.run(),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        // A reader that has seen enough (`sinew inspect ... | head`) is no failure.
+        Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("sinew: {error:#}");
+            ExitCode::from(1)
+        }
+    }
+}

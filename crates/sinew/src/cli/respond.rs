@@ -1,0 +1,238 @@
+//! `sinew respond`.
+
+use super::push_argument::{cycle, ground, push};
+use super::{Reading, Who, output};
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+use glam::DVec3;
+use sinew::figure::body_shapes;
+use sinew::motion::formats::{MotionFile, ReadOptions};
+use sinew::motion::{Note, Part};
+use sinew::respond::{Answer, RespondJob, respond, sheet};
+use sinew::response::{Coordinates, GroundJerk, Preset, Push, PushFrame, Settings};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `sinew respond`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Respond {
+    /// The clip to push: .bvh, .amc, .glb, .gltf or .fbx. Without one, the sample walk.
+    clip: Option<PathBuf>,
+    /// A push, such as part=leftHand,force=0:0:-100,at=1.0,for=0.1[,frame=world][,point=x:y:z]; may be repeated.
+    /// Newtons and seconds; x to the character's left, y up, z forward.
+    #[arg(long, value_name = "PUSH", value_parser = push)]
+    push: Vec<Push>,
+    /// A jerk of the ground, such as accel=4:0:0,at=1.0,for=0.2 (m/s²); may be repeated.
+    #[arg(long, value_name = "JERK", value_parser = ground)]
+    platform: Vec<GroundJerk>,
+    /// The reading of the paper.
+    #[arg(long, value_enum, default_value = "robust")]
+    preset: PresetName,
+    /// How far the body yields, from 0.25 (stiff) to 4 (loose).
+    #[arg(long, value_name = "C", default_value_t = 1.0)]
+    compliance: f64,
+    /// How many coordinates obey dynamics, 0 to 24.
+    #[arg(short, value_name = "K", default_value_t = 10)]
+    k: usize,
+    /// Which coordinates obey dynamics; `high` is the paper's counter-experiment, with --preset paper.
+    #[arg(long, value_enum, default_value = "low")]
+    coordinates: CoordinatesName,
+    /// Take the coordinates of actuation from another clip.
+    #[arg(long, value_name = "OTHER_CLIP")]
+    basis: Option<PathBuf>,
+    /// The frames of one gait cycle, from 0, both ends in, instead of the one found.
+    #[arg(long, value_name = "A..B", value_parser = cycle)]
+    cycle: Option<(usize, usize)>,
+    /// Play the cycle N times, seamlessly, instead of the clip.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    repeat: usize,
+    /// Where to write the answered clip; the extension tells the format; may be repeated.
+    #[arg(short, long, value_name = "OUT")]
+    output: Vec<PathBuf>,
+    /// Where to write a report as JSON.
+    #[arg(long, value_name = "R.json")]
+    report: Option<PathBuf>,
+    /// Where to draw a picture.
+    #[arg(long, value_name = "P.png")]
+    picture: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    who: Who,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PresetName {
+    /// What holds on every clip.
+    Robust,
+    /// Close to the print: shows the paper's sweep over k.
+    Paper,
+    /// The print, which does not hold.
+    Literal,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum CoordinatesName {
+    Low,
+    High,
+}
+
+/// What the command does without a clip and without a push: shows what it is for.
+const SHOW: Push = Push {
+    part: Part::LeftHand,
+    point: None,
+    force_n: DVec3::new(0.0, 0.0, -150.0),
+    frame: PushFrame::Facing,
+    at_secs: 2.0,
+    for_secs: 0.1,
+};
+
+impl Respond {
+    pub(super) fn run(&self) -> Result<()> {
+        let shows = self.clip.is_none() && self.push.is_empty() && self.platform.is_empty();
+        let pushes = if shows { vec![SHOW] } else { self.push.clone() };
+        let bar = output::spinner();
+        bar.set_message("reading");
+        let file = match &self.clip {
+            Some(path) => MotionFile::read(path, &self.reading.options())?,
+            None => {
+                let mut file = MotionFile::from_bvh(sinew::sample::WALK_BVH, &ReadOptions::default())?;
+                file.path = "sample walk".into();
+                file
+            }
+        };
+        let basis = self.basis.as_deref().map(|path| MotionFile::read(path, &ReadOptions::default())).transpose()?;
+        let job = RespondJob {
+            pushes,
+            ground: self.platform.clone(),
+            settings: self.settings(),
+            cycle: self.cycle,
+            repeat: self.repeat,
+            person: self.who.person(),
+        };
+        bar.set_message("responding");
+        let answer = respond(&file, &job, basis.as_ref()).with_context(|| file.path.display().to_string())?;
+        bar.set_message("writing");
+        let mut outputs = Outputs { motions: self.output.clone(), report: self.report.clone(), picture: self.picture.clone() };
+        if self.clip.is_none() && outputs.is_empty() {
+            outputs = Outputs::in_folder("out".as_ref());
+        }
+        let notes = outputs.write(&file, &answer, &job)?;
+        bar.finish_and_clear();
+        for note in file.notes.iter().chain(&answer.notes).chain(&notes) {
+            eprintln!("note: {note}");
+        }
+        output::say(&words(&answer, &job, &outputs))
+    }
+
+    fn settings(&self) -> Settings {
+        Settings {
+            preset: match self.preset {
+                PresetName::Robust => Preset::Robust,
+                PresetName::Paper => Preset::Paper,
+                PresetName::Literal => Preset::Literal,
+            },
+            k: self.k,
+            coordinates: match self.coordinates {
+                CoordinatesName::Low => Coordinates::Low,
+                CoordinatesName::High => Coordinates::High,
+            },
+            compliance: self.compliance,
+            ..Settings::default()
+        }
+    }
+}
+
+/// Files to write.
+struct Outputs {
+    motions: Vec<PathBuf>,
+    report: Option<PathBuf>,
+    picture: Option<PathBuf>,
+}
+
+impl Outputs {
+    fn in_folder(folder: &Path) -> Outputs {
+        Outputs {
+            motions: vec![folder.join("pushed.bvh"), folder.join("pushed.glb")],
+            report: Some(folder.join("report.json")),
+            picture: Some(folder.join("pushed.png")),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.motions.is_empty() && self.report.is_none() && self.picture.is_none()
+    }
+
+    fn write(&self, file: &MotionFile, answer: &Answer, job: &RespondJob) -> Result<Vec<Note>> {
+        let mut notes = Vec::new();
+        let body = body_shapes(&answer.reduction.shapes());
+        for path in &self.motions {
+            output::make_folder(path)?;
+            notes.extend(file.write(path, &answer.clip, &answer.rows, &body)?);
+        }
+        if let Some(path) = &self.report {
+            output::write_json(path, &answer.report)?;
+        }
+        if let Some(path) = &self.picture {
+            let title = file.path.file_name().unwrap_or(file.path.as_os_str()).display().to_string();
+            let png = sheet(answer, file.body_parts()?, &job.pushes, &title).to_png().context("the picture")?;
+            output::write_bytes(path, &png)?;
+        }
+        Ok(notes)
+    }
+}
+
+/// What happened, in a few lines, and what to try next.
+fn words(answer: &Answer, job: &RespondJob, outputs: &Outputs) -> String {
+    let report = &answer.report;
+    let mut lines = vec![format!(
+        "{}: {:.0} kg, {:.2} m, {} frames at {:.0} fps",
+        report.file, report.mass_kg, report.height_m, report.frames, report.fps
+    )];
+    if let Some((first, last)) = report.cycle {
+        lines.push(format!("style measured on the cycle of frames {first}..{last}"));
+    }
+    for push in &report.pushes {
+        let [x, y, z] = push.force_n;
+        let newtons = DVec3::new(x, y, z).length();
+        lines.push(format!(
+            "push: {newtons:.0} N on the {} ({x}:{y}:{z}, {}) at {:.2} s for {:.2} s",
+            push.part, push.frame, push.at_s, push.for_s
+        ));
+        if push.world_force_n.is_none() {
+            lines.push("  it never acted: the clip ends before it begins".to_owned());
+            continue;
+        }
+        let mut peaks: Vec<(&String, &f64)> = push.peak_deflection_deg.iter().collect();
+        peaks.sort_by(|a, b| b.1.total_cmp(a.1));
+        let most: Vec<String> = peaks.iter().take(6).map(|(part, degrees)| format!("{part} {degrees:.1}°")).collect();
+        lines.push(format!("  peak deflection: {}", most.join(", ")));
+        lines.push(match push.recovered_after_s {
+            Some(secs) => format!("  recovered {secs:.2} s after it ended (every joint within 2°)"),
+            None => "  not recovered by the end; --repeat N plays a walk on until it is".to_owned(),
+        });
+    }
+    if job.pushes.is_empty() && job.ground.is_empty() {
+        lines.push("nothing disturbs the clip: it passes through unchanged".to_owned());
+    } else {
+        lines.push(format!("stance ankles within {:.2} mm of the input's", report.stance_deviation_max_m * 1e3));
+    }
+    let written = outputs.motions.iter().chain(&outputs.report).chain(&outputs.picture);
+    let written: Vec<String> = written.map(|path| path.display().to_string()).collect();
+    if written.is_empty() {
+        lines.push("nothing written; add -o pushed.bvh, --report r.json or --picture p.png".to_owned());
+    } else {
+        lines.push(format!("wrote {}", written.join(", ")));
+    }
+    lines.push(format!("next: {}", suggestion(job)));
+    lines.join("\n")
+}
+
+fn suggestion(job: &RespondJob) -> &'static str {
+    if job.pushes.is_empty() && job.ground.is_empty() {
+        "--push part=leftHand,force=0:0:-100,at=1.0,for=0.1 pushes the hand backward"
+    } else if job.settings.compliance == 1.0 {
+        "--compliance 2 yields further, 0.5 less; sinew respond YOUR.bvh --push ... -o pushed.bvh pushes your own clip"
+    } else {
+        "--push part=head,... or part=chest,... pushes elsewhere; --platform accel=4:0:0,at=1,for=0.2 jerks the ground"
+    }
+}

@@ -1,0 +1,154 @@
+//! What a motion file is and what Sinew makes of it.
+
+use serde::Serialize;
+use sinew_body::humanoid::{Node, Person, Reduction};
+use sinew_motion::formats::MotionFile;
+use sinew_motion::{Origin, find_cycle, find_defects, floor_height_m, moves_from};
+use sinew_response::{Basis, Motion, Settings};
+use std::collections::BTreeMap;
+
+/// The answer of `sinew inspect`; units are in the names.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Inspection {
+    /// The file.
+    pub file: String,
+    /// `bvh`, `amc`, `gltf`, `glb` or `fbx`.
+    pub format: String,
+    /// How many frames.
+    pub frames: usize,
+    /// Frames per second.
+    pub fps: f64,
+    /// Duration \[s\].
+    pub duration_s: f64,
+    /// Length of one file unit \[m\].
+    pub unit_m: f64,
+    /// Standing height of the body \[m\]; null where it is none.
+    pub stature_m: Option<f64>,
+    /// Why the skeleton is no human body; null where it is one.
+    pub no_body: Option<String>,
+    /// The joints in the file's order.
+    pub joints: Vec<JointReport>,
+    /// Mass of each part of an 80 kg person \[kg\].
+    pub mass_kg: BTreeMap<String, f64>,
+    /// First and last frame of the gait cycle, from 0; null where nobody walks.
+    pub cycle: Option<(usize, usize)>,
+    /// Its duration \[s\].
+    pub cycle_s: Option<f64>,
+    /// The first frame that belongs to the motion.
+    pub first_frame: usize,
+    /// Where the floor is \[m\], Y up.
+    pub floor_height_m: Option<f64>,
+    /// The actuation spectrum of the upper body: root mean square torque along each direction \[N m\], descending.
+    pub actuation_n_m: Vec<f64>,
+    /// How many of the 24 coordinates are quiet: use less than a hundredth of the largest torque.
+    pub quiet_coordinates: usize,
+    /// What is wrong with the data.
+    pub defects: Vec<DefectReport>,
+    /// What was guessed, repaired or lost in reading.
+    pub notes: Vec<String>,
+}
+
+/// One joint.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JointReport {
+    /// The file's name.
+    pub name: String,
+    /// The body part, null for a joint that is none.
+    pub part: Option<String>,
+    /// Whether the part was guessed from the skeleton's shape rather than read from the name.
+    pub guessed: bool,
+    /// The parent's name.
+    pub parent: Option<String>,
+}
+
+/// One defect.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DefectReport {
+    /// What kind, such as `Frozen`.
+    pub kind: String,
+    /// First and last frame; null when it concerns the whole clip.
+    pub frames: Option<(usize, usize)>,
+    /// The joint, where it is one.
+    pub joint: Option<String>,
+    /// In words.
+    pub text: String,
+}
+
+/// Coordinates that use less than this of the largest torque are quiet.
+const QUIET: f64 = 0.01;
+
+/// Looks at a file.
+pub fn inspect(file: &MotionFile, person: Person) -> Inspection {
+    let clip = &file.clip;
+    let joints = clip.skeleton().joints();
+    let humanoid = file.humanoid.as_ref().ok();
+    let mut inspection = Inspection {
+        file: file.path.display().to_string(),
+        format: file.format.to_string(),
+        frames: clip.frames(),
+        fps: clip.fps(),
+        duration_s: clip.duration_secs(),
+        unit_m: file.space.unit_m,
+        stature_m: None,
+        no_body: file.humanoid.as_ref().err().map(ToString::to_string),
+        joints: joints
+            .iter()
+            .enumerate()
+            .map(|(index, joint)| {
+                let part = humanoid.and_then(|humanoid| humanoid.part(index));
+                JointReport {
+                    name: joint.name.clone(),
+                    part: part.map(|part| part.name().to_owned()),
+                    guessed: part.is_some_and(|part| humanoid.and_then(|h| h.origin(part)) == Some(Origin::Shape)),
+                    parent: joint.parent.map(|parent| joints[parent].name.clone()),
+                }
+            })
+            .collect(),
+        mass_kg: BTreeMap::new(),
+        cycle: None,
+        cycle_s: None,
+        first_frame: 0,
+        floor_height_m: None,
+        actuation_n_m: Vec::new(),
+        quiet_coordinates: 0,
+        defects: Vec::new(),
+        notes: file.notes.iter().map(ToString::to_string).collect(),
+    };
+    let Some(humanoid) = humanoid else { return inspection };
+    inspection.stature_m = Some(file.stature_m);
+    inspection.first_frame = moves_from(clip, humanoid);
+    let cycle = find_cycle(clip, humanoid);
+    inspection.cycle = cycle.map(|cycle| (cycle.first, cycle.last));
+    inspection.cycle_s = cycle.map(|cycle| cycle.period_secs);
+    inspection.floor_height_m = Some(floor_height_m(clip, humanoid));
+    inspection.defects = find_defects(clip, humanoid)
+        .into_iter()
+        .map(|defect| DefectReport {
+            kind: format!("{:?}", defect.kind),
+            frames: defect.frames,
+            joint: defect.joint.map(|joint| joints[joint].name.clone()),
+            text: defect.text,
+        })
+        .collect();
+    match Reduction::new(clip, humanoid, file.stature_m, person) {
+        Ok(reduction) => {
+            let mass = |node: &Node| (node.part().name().to_owned(), reduction.body().link(*node).mass_kg);
+            inspection.mass_kg = Node::ALL.iter().map(mass).collect();
+            let settings = Settings::default();
+            let motion = Motion::of_clip(clip, &reduction, inspection.first_frame, &settings);
+            let secs = |frame: usize| frame as f64 * clip.frame_time_secs();
+            let poses = match inspection.cycle {
+                Some((first, last)) => motion.between_secs(secs(first), secs(last)),
+                None => motion.poses(),
+            };
+            if let Ok(basis) = Basis::of_motion(reduction.body(), poses, &settings) {
+                inspection.actuation_n_m = basis.eigenvalues().iter().map(|value| value.sqrt()).collect();
+                let largest = inspection.actuation_n_m[0];
+                inspection.quiet_coordinates =
+                    inspection.actuation_n_m.iter().filter(|&&torque| torque < QUIET * largest).count();
+            }
+        }
+        Err(error) => inspection.notes.push(error.to_string()),
+    }
+    inspection
+}

@@ -1,0 +1,144 @@
+//! The picture of an answer: what users judge the motion by.
+
+use super::answer::Answer;
+use super::report::{Timeline, preset_name};
+use crate::figure::figure;
+use glam::DVec3;
+use sinew_body::humanoid::{Node, Shape};
+use sinew_motion::{Humanoid, facing, floor_height_m};
+use sinew_picture::{Arrow, Camera, Filmstrip, Limit, Mark, Panel, Plot, Series, Sheet, Style};
+use sinew_response::Push;
+
+/// Panels of the filmstrip.
+const PANELS: usize = 16;
+
+/// Lines of the plot: the joints that move most.
+const LINES: usize = 7;
+
+/// Shown before the first push \[s\].
+const BEFORE_SECS: f64 = 0.15;
+
+/// A filmstrip of the answer with the input as a ghost, and every joint's deflection over time.
+pub fn sheet(answer: &Answer, humanoid: &Humanoid, pushes: &[Push], title: &str) -> Sheet {
+    let timeline = Timeline::of(&answer.pushed, &answer.unpushed);
+    let begins = pushes.iter().map(|push| push.at_secs).fold(f64::INFINITY, f64::min);
+    let duration = answer.clip.duration_secs();
+    let (from, to) = if begins <= duration {
+        let recovered = answer.report.recovered_after_s.unwrap_or(2.5).clamp(0.6, 2.5);
+        let ends = pushes.iter().map(|push| push.at_secs + push.for_secs).fold(0.0, f64::max);
+        ((begins - BEFORE_SECS).max(0.0), (ends + recovered).min(duration))
+    } else {
+        (answer.first_frame as f64 * answer.clip.frame_time_secs(), duration.min(2.5))
+    };
+    let shapes = answer.reduction.shapes();
+    let strip = Filmstrip {
+        title: String::new(),
+        subtitle: String::new(),
+        panels: panels(answer, pushes, &shapes, from, to),
+        camera: camera(answer, humanoid, from),
+        style: Style { floor_m: floor_height_m(&answer.input, humanoid), ..Style::default() },
+    };
+    let mut sheet = Sheet {
+        title: title.to_owned(),
+        subtitle: subtitle(answer, pushes),
+        pieces: vec![strip.into()],
+        footer: format!(
+            "preset {}, k = {}, compliance {:.2}; {:.0} kg, {:.2} m; pale body: the input",
+            preset_name(answer.settings.preset),
+            answer.settings.k,
+            answer.settings.compliance,
+            answer.report.mass_kg,
+            answer.report.height_m
+        ),
+        ..Sheet::default()
+    };
+    if !pushes.is_empty() {
+        sheet.pieces.push(plot(&timeline, pushes, (begins - 0.3).max(0.0), (to + 1.0).min(duration)).into());
+    }
+    sheet
+}
+
+fn subtitle(answer: &Answer, pushes: &[Push]) -> String {
+    match pushes {
+        [] => "no push".to_owned(),
+        [push] => {
+            let back = answer.report.pushes[0].recovered_after_s;
+            let back = back.map_or("does not recover".to_owned(), |secs| format!("recovered {secs:.2} s after it ended"));
+            format!(
+                "{:.0} N on the {} at {:.2} s for {:.2} s; {back}",
+                push.force_n.length(),
+                push.part,
+                push.at_secs,
+                push.for_secs
+            )
+        }
+        several => format!("{} pushes", several.len()),
+    }
+}
+
+fn panels(answer: &Answer, pushes: &[Push], shapes: &[(Node, usize, Shape)], from: f64, to: f64) -> Vec<Panel> {
+    let frame_time = answer.clip.frame_time_secs();
+    let hips = answer.reduction.joint(Node::Hips).unwrap_or(0);
+    let last = answer.clip.frames().saturating_sub(1);
+    (0..PANELS)
+        .map(|index| {
+            let wanted = from + (to - from) * index as f64 / (PANELS - 1) as f64;
+            let frame = ((wanted / frame_time).round() as usize).min(last);
+            let time_secs = frame as f64 * frame_time;
+            let (ours, input) = (answer.clip.world(frame), answer.input.world(frame));
+            let acting = |push: &&Push| {
+                // A push shorter than the time between panels is shown in the panel that it falls in.
+                let step = (to - from) / (PANELS - 1) as f64;
+                time_secs + 0.5 * step > push.at_secs && time_secs - 0.5 * step < push.at_secs + push.for_secs
+            };
+            let arrows = pushes.iter().enumerate().filter(|(_, push)| acting(push)).filter_map(|(index, push)| {
+                let force_n = answer.pushed.forces()[index]?;
+                let node = Node::of(push.part);
+                let (_, joint, shape) = shapes.iter().find(|(other, _, _)| *other == node)?;
+                Some(Arrow { at: ours[*joint].point((shape.from + shape.to) * 0.5), force_n, label: String::new() })
+            });
+            Panel {
+                time_secs,
+                figure: figure(shapes, &ours),
+                ghost: Some(figure(shapes, &input)),
+                arrows: arrows.collect(),
+                follow: Some(input[hips].translation),
+                caption: String::new(),
+            }
+        })
+        .collect()
+}
+
+fn camera(answer: &Answer, humanoid: &Humanoid, secs: f64) -> Camera {
+    let frame = (secs / answer.clip.frame_time_secs()) as usize;
+    let world = answer.input.world(frame.min(answer.input.frames().saturating_sub(1)));
+    Camera::three_quarter().about_heading(facing(&world, humanoid).unwrap_or(DVec3::Z))
+}
+
+fn plot(timeline: &Timeline, pushes: &[Push], from: f64, to: f64) -> Plot {
+    let mut peaks: Vec<(Node, f64)> = Node::ALL
+        .into_iter()
+        .map(|node| (node, timeline.rows.iter().map(|(_, angles)| angles[node.index()]).fold(0.0, f64::max)))
+        .collect();
+    peaks.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let series = peaks.iter().take(LINES).map(|(node, _)| {
+        let rows = timeline.rows.iter().filter(|(secs, _)| (from..=to).contains(secs));
+        Series::new(node.part().name(), rows.map(|(secs, angles)| (*secs, angles[node.index()].to_degrees())).collect())
+    });
+    Plot {
+        title: "How far each joint is from the same motion without the push".to_owned(),
+        x_label: "time (s)".to_owned(),
+        y_label: "deflection (°)".to_owned(),
+        series: series.collect(),
+        marks: pushes
+            .iter()
+            .map(|push| Mark {
+                from_secs: push.at_secs,
+                to_secs: push.at_secs + push.for_secs,
+                label: format!("{} {:.0} N", push.part, push.force_n.length()),
+            })
+            .collect(),
+        limits: vec![Limit { value: 2.0, label: "recovered below 2°".to_owned() }],
+        ..Plot::default()
+    }
+}
