@@ -43,22 +43,34 @@ const FROZEN_SECS: f64 = 0.1;
 const FASTEST_TURN_RAD_S: f64 = 60.0;
 /// Fastest that hips travel: the fastest sprint is 12.4 m/s.
 const FASTEST_TRAVEL_M_S: f64 = 13.0;
+/// Frames that a glide from the rest pose into the motion takes at most.
+const GLIDE_FRAMES: usize = 12;
+/// Longest flight: a jump of 0.9 m takes 0.86 s \[s\].
+const LONGEST_FLIGHT_SECS: f64 = 1.0;
 /// Standing feet this far off Y = 0 are worth telling \[m\].
 const OFF_FLOOR_M: f64 = 0.03;
 /// Slide of a foot within one stance that is worth telling \[m\].
 const SKATE_M: f64 = 0.05;
 
-/// The first frame that belongs to the motion: 1 when frame 0 is a rest pose (as in CMU's BVH conversions), otherwise 0.
+/// The first frame that belongs to the motion: 0, or the frame after a rest pose at the beginning. CMU's BVH conversions begin
+/// with a T-pose in frame 0; those for Daz also glide from it into the motion over up to eight frames.
 ///
-/// Frame 0 is one when it differs from frame 1 by more than 10° (root mean square over the joints) and by ten times the largest
-/// step of the frames after it.
+/// Frame 0 is such a pose when it differs from frame 1 by more than 8° (root mean square over the joints) and by six times
+/// what later frames (the 90th percentile over about 60) differ by; the glide lasts while frames still differ by four times as
+/// much.
 pub fn moves_from(clip: &Clip, humanoid: &Humanoid) -> usize {
-    if clip.frames() < 3 {
+    let glide = GLIDE_FRAMES.min(clip.frames() / 2);
+    if glide < 2 {
         return 0;
     }
-    let leap = pose_gap(clip, humanoid, 0, 1);
-    let usual = (1..clip.frames().min(30) - 1).map(|frame| pose_gap(clip, humanoid, frame, frame + 1)).fold(0.0, f64::max);
-    usize::from(leap.to_degrees() > 10.0 && leap > 10.0 * usual)
+    let step = |frame: usize| pose_gap(clip, humanoid, frame, frame + 1).to_degrees();
+    let later = (glide..(glide + 60).min(clip.frames() - 1)).map(step).collect();
+    let usual = quantile(later, 0.9).unwrap_or(0.0);
+    if step(0) < 8.0 || step(0) < 6.0 * usual {
+        return 0;
+    }
+    // A tenth of a degree is rest.
+    (0..glide).rev().find(|&frame| step(frame) > 4.0 * usual.max(0.1)).map_or(0, |frame| frame + 1)
 }
 
 /// Finds what is wrong with a clip in metres and Y up, in the order of [`DefectKind`].
@@ -68,13 +80,13 @@ pub fn find_defects(clip: &Clip, humanoid: &Humanoid) -> Vec<Defect> {
         return defects;
     }
     let from = moves_from(clip, humanoid);
-    if from == 1 {
-        let gap = pose_gap(clip, humanoid, 0, 1).to_degrees();
+    if from > 0 {
+        let gap = pose_gap(clip, humanoid, 0, from).to_degrees();
         defects.push(Defect {
             kind: DefectKind::RestPoseFirst,
-            frames: Some((0, 0)),
+            frames: Some((0, from - 1)),
             joint: None,
-            text: format!("frame 0 is a rest pose, {gap:.0}° from frame 1: the motion begins at frame 1"),
+            text: format!("frame 0 is a rest pose, {gap:.0}° from the motion, which begins at frame {from}"),
         });
     }
     frozen(clip, &mut defects);
@@ -152,8 +164,18 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
         let text = format!("standing feet are {:.0} mm below Y = 0", -1e3 * floor);
         defects.push(Defect { kind: DefectKind::FeetUnderFloor, frames: None, joint: None, text });
     }
-    let contacts = contacts(clip, humanoid);
     let feet = Feet::of(clip, humanoid);
+    let high: Vec<bool> = (0..clip.frames())
+        .map(|frame| feet.sides.iter().flatten().all(|point| point.positions[frame].y > floor + 2.0 * OFF_FLOOR_M * feet.scale))
+        .collect();
+    for (first, last) in runs(&high) {
+        let secs = (last + 1 - first) as f64 * clip.frame_time_secs();
+        if secs > LONGEST_FLIGHT_SECS {
+            let text = format!("both feet float for {secs:.1} s, in frames {first} to {last}");
+            defects.push(Defect { kind: DefectKind::FloatingFeet, frames: Some((first, last)), joint: None, text });
+        }
+    }
+    let contacts = contacts(clip, humanoid);
     for side in [Side::Left, Side::Right] {
         for (first, last) in contacts.stances(side) {
             let first = first.max(from);
