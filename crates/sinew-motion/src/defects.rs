@@ -142,13 +142,23 @@ fn jumps(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect
             usual.push(clip.rotation(frame - 1, joint).angle_between(clip.rotation(frame, joint)));
         }
         for (at, &turn) in usual.iter().enumerate() {
-            // A fast move has fast neighbours, a leap does not.
-            let beside = |other: Option<usize>| other.and_then(|other| usual.get(other)).copied().unwrap_or(0.0);
-            let neighbours = beside(at.checked_sub(1)).max(beside(Some(at + 1)));
+            // A fast move has fast neighbours, a leap (there, or there and back) does not.
+            let around = usual[at.saturating_sub(3)..(at + 4).min(usual.len())].to_vec();
+            let neighbours = quantile(around, 0.5).unwrap_or(0.0);
             if turn * fps > FASTEST_TURN_RAD_S || turn.to_degrees() > 20.0 && turn > 6.0 * neighbours {
                 let frame = from + at;
-                let text = format!("{part} ({:?}) turns {:.0}° from frame {frame} to {}", name(joint), turn.to_degrees(), frame + 1);
-                defects.push(Defect { kind: DefectKind::Jump, frames: Some((frame, frame + 1)), joint: Some(joint), text });
+                let text = format!(
+                    "{part} ({:?}) turns {:.0}° from frame {frame} to {}",
+                    name(joint),
+                    turn.to_degrees(),
+                    frame + 1
+                );
+                defects.push(Defect {
+                    kind: DefectKind::Jump,
+                    frames: Some((frame, frame + 1)),
+                    joint: Some(joint),
+                    text,
+                });
             }
         }
     }
@@ -166,7 +176,9 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
     }
     let feet = Feet::of(clip, humanoid);
     let high: Vec<bool> = (0..clip.frames())
-        .map(|frame| feet.sides.iter().flatten().all(|point| point.positions[frame].y > floor + 2.0 * OFF_FLOOR_M * feet.scale))
+        .map(|frame| {
+            feet.sides.iter().flatten().all(|point| point.positions[frame].y > floor + 2.0 * OFF_FLOOR_M * feet.scale)
+        })
         .collect();
     for (first, last) in runs(&high) {
         let secs = (last + 1 - first) as f64 * clip.frame_time_secs();
@@ -187,11 +199,20 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
                 let level = |frame: usize| glam::DVec2::new(point.positions[frame].x, point.positions[frame].z);
                 middle.clone().map(|frame| level(frame).distance(level(*middle.start()))).fold(0.0, f64::max)
             };
-            let least = feet.sides[side as usize].iter().map(|point| (slide(point), point.joint)).min_by(|a, b| a.0.total_cmp(&b.0));
+            let least = feet.sides[side as usize]
+                .iter()
+                .map(|point| (slide(point), point.joint))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((slide, joint)) = least.filter(|(slide, _)| *slide > SKATE_M * feet.scale) {
                 let foot = if side == Side::Left { "left" } else { "right" };
-                let text = format!("the {foot} foot slides {:.0} mm while it stands in frames {first} to {last}", 1e3 * slide);
-                defects.push(Defect { kind: DefectKind::FootSkate, frames: Some((first, last)), joint: Some(joint), text });
+                let text =
+                    format!("the {foot} foot slides {:.0} mm while it stands in frames {first} to {last}", 1e3 * slide);
+                defects.push(Defect {
+                    kind: DefectKind::FootSkate,
+                    frames: Some((first, last)),
+                    joint: Some(joint),
+                    text,
+                });
             }
         }
     }
@@ -199,7 +220,8 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
 
 fn zero_bones(clip: &Clip, humanoid: &Humanoid, defects: &mut Vec<Defect>) {
     let skeleton = clip.skeleton();
-    let lengths: Vec<f64> = (0..skeleton.len()).map(|joint| clip.translation(clip.frames() / 2, joint).length()).collect();
+    let lengths: Vec<f64> =
+        (0..skeleton.len()).map(|joint| clip.translation(clip.frames() / 2, joint).length()).collect();
     let typical = quantile(lengths.clone(), 0.75).unwrap_or(0.0);
     for (joint, bone) in skeleton.joints().iter().enumerate() {
         let Some(parent) = bone.parent else { continue };
@@ -207,7 +229,8 @@ fn zero_bones(clip: &Clip, humanoid: &Humanoid, defects: &mut Vec<Defect>) {
             continue;
         }
         let of = humanoid.part(joint).map(Part::name).map_or(String::new(), |part| format!(" ({part})"));
-        let text = format!("joint {:?}{of} is at the place of its parent {:?}", bone.name, skeleton.joints()[parent].name);
+        let text =
+            format!("joint {:?}{of} is at the place of its parent {:?}", bone.name, skeleton.joints()[parent].name);
         defects.push(Defect { kind: DefectKind::ZeroLengthBone, frames: None, joint: Some(joint), text });
     }
 }

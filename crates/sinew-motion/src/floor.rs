@@ -120,7 +120,11 @@ impl FootPoint {
     /// Speed by central difference \[m/s\].
     pub fn speed(&self, frame: usize, fps: f64) -> f64 {
         let (before, after) = (frame.saturating_sub(1), (frame + 1).min(self.positions.len() - 1));
-        if before == after { 0.0 } else { self.positions[before].distance(self.positions[after]) * fps / (after - before) as f64 }
+        if before == after {
+            0.0
+        } else {
+            self.positions[before].distance(self.positions[after]) * fps / (after - before) as f64
+        }
     }
 }
 
@@ -139,7 +143,10 @@ impl Feet {
             points
         });
         let mut sides = points.each_ref().map(|points| {
-            points.iter().map(|&(joint, _)| FootPoint { joint, positions: Vec::with_capacity(clip.frames()) }).collect::<Vec<_>>()
+            points
+                .iter()
+                .map(|&(joint, _)| FootPoint { joint, positions: Vec::with_capacity(clip.frames()) })
+                .collect::<Vec<_>>()
         });
         let mut world = Vec::new();
         for frame in 0..clip.frames() {

@@ -130,7 +130,9 @@ impl Seam {
     fn correct(&self, local: Transform, frame: usize, length: usize, window: f64) -> Transform {
         let share = frame as f64 / self.length - 0.5;
         // A hat of slope 1 at the seam that is over, speed included, one window away from it.
-        let hat = |distance: f64| if distance < window { distance * (1.0 - distance / window) * (1.0 - distance / window) } else { 0.0 };
+        let hat = |distance: f64| {
+            if distance < window { distance * (1.0 - distance / window) * (1.0 - distance / window) } else { 0.0 }
+        };
         let blend = -hat(frame as f64) - hat((length - frame) as f64);
         let turn = self.turn * share + self.turn_speed * blend;
         // The shift is known in the parent's frame at the end; at the beginning that frame is turned back.

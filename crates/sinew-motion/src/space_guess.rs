@@ -66,7 +66,12 @@ const OUT_OF_THE_QUESTION: f64 = 8.0;
 /// let in_metres = guess.space.clip_to_world(&in_file_units);
 /// # Ok::<(), sinew_motion::Error>(())
 /// ```
-pub fn guess_space(clip: &Clip, humanoid: &Humanoid, unit_m: Option<f64>, world_from_source: Option<DQuat>) -> SpaceGuess {
+pub fn guess_space(
+    clip: &Clip,
+    humanoid: &Humanoid,
+    unit_m: Option<f64>,
+    world_from_source: Option<DQuat>,
+) -> SpaceGuess {
     let mut notes = Vec::new();
     let raw = stature(clip, humanoid);
     let mut candidates: Vec<UnitCandidate> = UNITS
@@ -82,7 +87,9 @@ pub fn guess_space(clip: &Clip, humanoid: &Humanoid, unit_m: Option<f64>, world_
     let stature_m = raw * chosen_m;
     let alternatives: Vec<UnitCandidate> = candidates
         .into_iter()
-        .filter(|candidate| candidate.doubt < OUT_OF_THE_QUESTION && (candidate.unit_m - chosen_m).abs() > 1e-9 * chosen_m)
+        .filter(|candidate| {
+            candidate.doubt < OUT_OF_THE_QUESTION && (candidate.unit_m - chosen_m).abs() > 1e-9 * chosen_m
+        })
         .collect();
     if unit_m.is_none() {
         let others: Vec<String> =

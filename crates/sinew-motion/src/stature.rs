@@ -22,7 +22,9 @@ const ANKLE_SHARE: f64 = 0.039;
 /// the lowest point of toes or foot tip usually is; 3.9 % of the stature where the foot has neither.
 pub fn stature(clip: &Clip, humanoid: &Humanoid) -> f64 {
     let poses = sample_poses(clip, 64);
-    let median = |length: &dyn Fn(&Vec<crate::Transform>) -> f64| quantile(poses.iter().map(length).collect(), 0.5).unwrap_or(0.0);
+    let median = |length: &dyn Fn(&Vec<crate::Transform>) -> f64| {
+        quantile(poses.iter().map(length).collect(), 0.5).unwrap_or(0.0)
+    };
     let sides = [Side::Left, Side::Right];
     let legs = sides.map(|side| humanoid.leg(side));
     let mut length = 0.0;
@@ -95,7 +97,9 @@ pub(crate) fn foot_points(clip: &Clip, humanoid: &Humanoid, side: Side) -> Vec<(
 pub(crate) fn up_axis(clip: &Clip, humanoid: &Humanoid) -> DVec3 {
     let feet = [Side::Left, Side::Right].map(|side| humanoid.leg(side)[2]);
     let head = humanoid.head();
-    leading_axis(sample_poses(clip, 64).iter().map(|pose| {
-        pose[head].translation - 0.5 * (pose[feet[0]].translation + pose[feet[1]].translation)
-    }))
+    leading_axis(
+        sample_poses(clip, 64)
+            .iter()
+            .map(|pose| pose[head].translation - 0.5 * (pose[feet[0]].translation + pose[feet[1]].translation)),
+    )
 }

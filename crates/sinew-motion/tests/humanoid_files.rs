@@ -163,7 +163,8 @@ fn every_captured_person_is_mapped_completely_by_name() {
     paths.extend(files(&mocap, &["fbx"]));
     for path in paths {
         let (file, folder) = (name_of(&path), name_of(path.parent().unwrap()));
-        let dialect = DIALECTS.iter().find(|dialect| dialect.files.iter().any(|known| *known == file || *known == folder));
+        let dialect =
+            DIALECTS.iter().find(|dialect| dialect.files.iter().any(|known| *known == file || *known == folder));
         let dialect = dialect.unwrap_or_else(|| panic!("no dialect is known for {file}"));
         let parsed = read(&path);
         let humanoid = Humanoid::of(&parsed.clip, &[]).unwrap_or_else(|error| panic!("{file}: {error}"));
@@ -183,7 +184,9 @@ fn every_captured_person_is_mapped_completely_by_name() {
             assert_eq!(joint_name(&parsed.clip, humanoid.joint(part)), name, "{file}: {part}");
             assert_ne!(humanoid.origin(part), Some(Origin::Shape), "{file}: {part}");
         }
-        let names = |chain: &[usize]| -> Vec<String> { chain.iter().map(|&joint| joint_name(&parsed.clip, Some(joint))).collect() };
+        let names = |chain: &[usize]| -> Vec<String> {
+            chain.iter().map(|&joint| joint_name(&parsed.clip, Some(joint))).collect()
+        };
         assert_eq!(names(humanoid.spine_chain()), dialect.spine_chain, "{file}");
         assert_eq!(names(humanoid.neck_chain()), dialect.neck_chain, "{file}");
         assert_eq!(humanoid.unmapped().len() + humanoid.parts().count(), parsed.clip.skeleton().len(), "{file}");
@@ -231,17 +234,13 @@ fn numbered_and_nameless_game_rigs_are_mapped() {
     ] {
         assert_eq!(body.joint_name(part), name, "{part}");
     }
-    // The same man without names, turned and by another exporter: the same joints are as far from the hips.
+    // The same man without names, by another exporter: the same bones, so the same lengths.
     let nameless = Body::load(&mocap.join("gltf/cesium_man.gltf"));
-    let reach = |body: &Body, joint: usize| {
-        let world = body.clip.world(0);
-        world[joint].translation.distance(world[body.humanoid.hips()].translation)
-    };
-    for (part, joint) in body.humanoid.parts() {
+    for (part, joint) in body.humanoid.parts().filter(|(part, _)| *part != Part::Hips) {
         let other = nameless.humanoid.joint(part).unwrap_or_else(|| panic!("{part}"));
-        // Joints of two parts are 4 cm apart or more; the exporters differ by millimetres.
-        let (here, there) = (reach(&body, joint), reach(&nameless, other));
-        assert!((here - there).abs() < 0.01, "{part}: {here} {there}");
+        let (here, there) = (body.clip.translation(0, joint).length(), nameless.clip.translation(0, other).length());
+        // One exporter has bones change their length by millimetres as they move.
+        assert!((here - there).abs() < 0.005, "{part}: {here} {there}");
     }
 }
 
@@ -259,7 +258,9 @@ fn a_fox_and_a_cylinder_are_refused_with_the_reason() {
 fn an_override_wins_over_the_name() {
     let Some(mocap) = mocap() else { return };
     let clip = read(&mocap.join("cmu_bvh_motionbuilder/07_01.bvh")).clip;
-    let humanoid = Humanoid::of(&clip, &[(Part::Chest, "Spine".to_owned()), (Part::LeftHand, "LeftFingerBase".to_owned())]).unwrap();
+    let humanoid =
+        Humanoid::of(&clip, &[(Part::Chest, "Spine".to_owned()), (Part::LeftHand, "LeftFingerBase".to_owned())])
+            .unwrap();
     assert_eq!(joint_name(&clip, humanoid.joint(Part::LeftHand)), "LeftFingerBase");
     assert_eq!(joint_name(&clip, Some(humanoid.chest())), "Spine");
     assert_eq!(humanoid.origin(Part::Chest), Some(Origin::Override));

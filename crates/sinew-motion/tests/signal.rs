@@ -120,9 +120,14 @@ fn swing(fps: f64, frames: usize) -> Clip {
 
 #[test]
 fn coincident_frames_keep_their_bits_at_any_ratio() {
-    for (from, to, source_step, target_step) in
-        [(30.0, 60.0, 1, 2), (120.0, 60.0, 2, 1), (100.0, 60.0, 5, 3), (24.0, 60.0, 2, 5), (120.0048, 60.0, 2, 1), (30.003, 60.0, 1, 2)]
-    {
+    for (from, to, source_step, target_step) in [
+        (30.0, 60.0, 1, 2),
+        (120.0, 60.0, 2, 1),
+        (100.0, 60.0, 5, 3),
+        (24.0, 60.0, 2, 5),
+        (120.0048, 60.0, 2, 1),
+        (30.003, 60.0, 1, 2),
+    ] {
         let clip = swing(from, 301);
         let resampled = resample(&clip, to);
         assert_eq!(resampled.fps(), 1.0 / (1.0 / to));

@@ -71,12 +71,9 @@ fn offer_arm(draft: &mut Draft, names: &Names, side: Side) {
     let wrist = first(Kind::Wrist);
     let hand = first(Kind::Hand);
     let hand = if hand.is_none() || names.above(wrist, hand) { wrist } else { hand };
-    for (part, joint) in [
-        (Part::LeftShoulder, collar),
-        (Part::LeftUpperArm, upper),
-        (Part::LeftLowerArm, lower),
-        (Part::LeftHand, hand),
-    ] {
+    for (part, joint) in
+        [(Part::LeftShoulder, collar), (Part::LeftUpperArm, upper), (Part::LeftLowerArm, lower), (Part::LeftHand, hand)]
+    {
         draft.offer(Draft::sided(part, side), joint, Origin::Name);
     }
 }
@@ -95,12 +92,9 @@ fn offer_leg(draft: &mut Draft, names: &Names, side: Side) {
     let pivot = below.is_none() || names.above(ankle, below);
     let foot = if pivot { ankle } else { below };
     let toes = first(Kind::Toes).or(if pivot { below } else { None });
-    for (part, joint) in [
-        (Part::LeftUpperLeg, upper),
-        (Part::LeftLowerLeg, lower),
-        (Part::LeftFoot, foot),
-        (Part::LeftToes, toes),
-    ] {
+    for (part, joint) in
+        [(Part::LeftUpperLeg, upper), (Part::LeftLowerLeg, lower), (Part::LeftFoot, foot), (Part::LeftToes, toes)]
+    {
         draft.offer(Draft::sided(part, side), joint, Origin::Name);
     }
 }

@@ -51,22 +51,45 @@ const STEMS: &[(Kind, &[&str])] = &[
     (
         Kind::Trunk,
         &[
-            "spine", "chest", "torso", "trunk", "abdomen", "waist", "belly", "stomach", "lowerback", "upperback", "back",
-            "thorax", "lowerspine", "middlespine", "midspine", "upperspine", "lumbar", "lowerchest", "ribcage", "lowertorso",
-            "uppertorso", "abdomenlower", "abdomenupper", "chestlower", "sternum", "tospine",
+            "spine",
+            "chest",
+            "torso",
+            "trunk",
+            "abdomen",
+            "waist",
+            "belly",
+            "stomach",
+            "lowerback",
+            "upperback",
+            "back",
+            "thorax",
+            "lowerspine",
+            "middlespine",
+            "midspine",
+            "upperspine",
+            "lumbar",
+            "lowerchest",
+            "ribcage",
+            "lowertorso",
+            "uppertorso",
+            "abdomenlower",
+            "abdomenupper",
+            "chestlower",
+            "sternum",
+            "tospine",
         ],
     ),
     (Kind::UpperChest, &["upperchest", "chestupper"]),
     (Kind::Neck, &["neck", "lowerneck", "upperneck", "necklower", "neckupper", "necktwist", "cervical"]),
     (Kind::Head, &["head", "skull"]),
-    (Kind::Collar, &["collar", "clavicle", "clav", "collarbone", "clavicula", "shoulderjoint", "scapula", "innershoulder"]),
+    (
+        Kind::Collar,
+        &["collar", "clavicle", "clav", "collarbone", "clavicula", "shoulderjoint", "scapula", "innershoulder"],
+    ),
     (Kind::Shoulder, &["shoulder"]),
     (Kind::UpperArm, &["upperarm", "uparm", "humerus", "shldr", "shldrbend", "bicep", "armupper", "uarm"]),
     (Kind::Arm, &["arm"]),
-    (
-        Kind::LowerArm,
-        &["lowerarm", "forearm", "lowarm", "elbow", "radius", "forearmbend", "armlower", "ulna"],
-    ),
+    (Kind::LowerArm, &["lowerarm", "forearm", "lowarm", "elbow", "radius", "forearmbend", "armlower", "ulna"]),
     (Kind::Wrist, &["wrist"]),
     (Kind::Hand, &["hand", "palm"]),
     (Kind::UpperLeg, &["upperleg", "upleg", "thigh", "femur", "thighbend", "legupper", "uleg"]),
@@ -78,22 +101,103 @@ const STEMS: &[(Kind, &[&str])] = &[
     (Kind::Tail, &["tail"]),
     (
         Kind::Other,
-        &["hipjoint", "buttock", "finger", "fingers", "fingerbase", "thumb", "index", "middle", "mid", "ring", "pinky", "eye", "jaw"],
+        &[
+            "hipjoint",
+            "buttock",
+            "finger",
+            "fingers",
+            "fingerbase",
+            "thumb",
+            "index",
+            "middle",
+            "mid",
+            "ring",
+            "pinky",
+            "eye",
+            "jaw",
+        ],
     ),
 ];
 
 /// Words that make a joint no part of ours wherever they stand in its name.
 const HELPERS: &[&str] = &[
-    "ik", "fk", "twist", "roll", "nub", "end", "site", "target", "pole", "ctrl", "control", "helper", "weapon", "prop",
-    "hair", "skirt", "cloth", "cape", "breast", "eye", "ear", "jaw", "brow", "tongue", "teeth", "lip", "nose", "thumb",
-    "index", "middle", "ring", "pinky", "little", "finger", "fingers", "metacarpal", "carpal", "footsteps", "camera",
-    "handle", "attach", "socket", "dummy", "corrective", "muscle",
+    "ik",
+    "fk",
+    "twist",
+    "roll",
+    "nub",
+    "end",
+    "site",
+    "target",
+    "pole",
+    "ctrl",
+    "control",
+    "helper",
+    "weapon",
+    "prop",
+    "hair",
+    "skirt",
+    "cloth",
+    "cape",
+    "breast",
+    "eye",
+    "ear",
+    "jaw",
+    "brow",
+    "tongue",
+    "teeth",
+    "lip",
+    "nose",
+    "thumb",
+    "index",
+    "middle",
+    "ring",
+    "pinky",
+    "little",
+    "finger",
+    "fingers",
+    "metacarpal",
+    "carpal",
+    "footsteps",
+    "camera",
+    "handle",
+    "attach",
+    "socket",
+    "dummy",
+    "corrective",
+    "muscle",
 ];
 
 /// Words in front of a name that say nothing about the body.
 const PREFIXES: &[&str] = &[
-    "mixamorig", "bip", "bone", "valve", "valvebiped", "biped", "j", "b", "c", "m", "def", "org", "mch", "cc", "base", "jnt",
-    "joint", "bn", "bind", "skel", "skeleton", "armature", "character", "rig", "sk", "hik", "actor", "body",
+    "mixamorig",
+    "bip",
+    "bone",
+    "valve",
+    "valvebiped",
+    "biped",
+    "j",
+    "b",
+    "c",
+    "m",
+    "def",
+    "org",
+    "mch",
+    "cc",
+    "base",
+    "jnt",
+    "joint",
+    "bn",
+    "bind",
+    "skel",
+    "skeleton",
+    "armature",
+    "character",
+    "rig",
+    "sk",
+    "hik",
+    "actor",
+    "body",
 ];
 
 /// Words at the end of a name that say nothing about the body.
@@ -146,10 +250,11 @@ fn split(name: &str) -> Vec<String> {
 
 fn understand(words: &[String], shared: Option<&str>) -> Name {
     let mut words: Vec<&str> = words.iter().map(String::as_str).collect();
-    if let Some(shared) = shared {
-        if words.len() > 1 && words[0] == shared {
-            words.remove(0);
-        }
+    if let Some(shared) = shared
+        && words.len() > 1
+        && words[0] == shared
+    {
+        words.remove(0);
     }
     let mut side = words.iter().find_map(|word| side_word(word));
     words.retain(|word| side_word(word).is_none());
@@ -169,9 +274,7 @@ fn understand(words: &[String], shared: Option<&str>) -> Name {
     if kind.is_none() && side.is_none() {
         // `lefthand`, `lfemur`: the side is stuck to the stem. Longest marker first.
         let stem = words.concat();
-        for (marker, marked) in
-            [("left", Side::Left), ("right", Side::Right), ("l", Side::Left), ("r", Side::Right)]
-        {
+        for (marker, marked) in [("left", Side::Left), ("right", Side::Right), ("l", Side::Left), ("r", Side::Right)] {
             if let Some(found) = stem.strip_prefix(marker).and_then(kind_of) {
                 (side, kind) = (Some(marked), Some(found));
                 break;
@@ -205,8 +308,19 @@ mod tests {
     #[test]
     fn every_dialect_names_the_left_thigh_or_arm() {
         for name in [
-            "LeftUpLeg", "lThigh", "lfemur", "mixamorig:LeftUpLeg", "Bip01 L Thigh", "thigh_l", "J_Bip_L_UpperLeg", "thigh.L",
-            "ValveBiped.Bip01_L_Thigh", "CC_Base_L_Thigh", "DEF-thigh.L", "leftUpperLeg", "Character1_LeftUpLeg",
+            "LeftUpLeg",
+            "lThigh",
+            "lfemur",
+            "mixamorig:LeftUpLeg",
+            "Bip01 L Thigh",
+            "thigh_l",
+            "J_Bip_L_UpperLeg",
+            "thigh.L",
+            "ValveBiped.Bip01_L_Thigh",
+            "CC_Base_L_Thigh",
+            "DEF-thigh.L",
+            "leftUpperLeg",
+            "Character1_LeftUpLeg",
         ] {
             let names = ["Character1_Hips", "Character1_Spine", "Character1_Head", name];
             let read = read(&names).remove(3);
@@ -220,8 +334,20 @@ mod tests {
     #[test]
     fn helpers_and_fingers_are_no_parts() {
         for name in [
-            "ik_foot_l", "upperarm_twist_01_l", "Bip01LFinger0Nub", "LeftHandIndex1", "LeftInHandMiddle", "LThumb",
-            "LeftFootThumb1", "Head_Nub", "LHipJoint", "lhipjoint", "rButtock", "LFingers", "leftEye", "Bip01 Footsteps",
+            "ik_foot_l",
+            "upperarm_twist_01_l",
+            "Bip01LFinger0Nub",
+            "LeftHandIndex1",
+            "LeftInHandMiddle",
+            "LThumb",
+            "LeftFootThumb1",
+            "Head_Nub",
+            "LHipJoint",
+            "lhipjoint",
+            "rButtock",
+            "LFingers",
+            "leftEye",
+            "Bip01 Footsteps",
         ] {
             assert_eq!(one(name).1, Some(Kind::Other), "{name}");
         }
@@ -229,7 +355,9 @@ mod tests {
 
     #[test]
     fn words_that_begin_like_a_side_are_no_side() {
-        for (name, kind) in [("lowerback", Kind::Trunk), ("root", Kind::Root), ("lowerneck", Kind::Neck), ("Ribcage", Kind::Trunk)] {
+        for (name, kind) in
+            [("lowerback", Kind::Trunk), ("root", Kind::Root), ("lowerneck", Kind::Neck), ("Ribcage", Kind::Trunk)]
+        {
             assert_eq!(one(name), (None, Some(kind)), "{name}");
         }
         assert_eq!(one("Lefthand"), (Some(Side::Left), Some(Kind::Hand)));

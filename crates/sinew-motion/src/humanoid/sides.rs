@@ -9,7 +9,13 @@ use crate::{Clip, Error, Note, Part, Side, Transform};
 use glam::DVec3;
 
 /// Offers the parts of a shape, each pair of limbs with its sides told by names, or else by geometry.
-pub(super) fn offer(draft: &mut Draft, clip: &Clip, names: &Names, shape: &Shape, notes: &mut Vec<Note>) -> Result<(), Error> {
+pub(super) fn offer(
+    draft: &mut Draft,
+    clip: &Clip,
+    names: &Names,
+    shape: &Shape,
+    notes: &mut Vec<Note>,
+) -> Result<(), Error> {
     let poses = sample_poses(clip, 64);
     let left_first = |pair: &[Limb; 2], draft: &Draft| -> Option<bool> {
         named_left_first(pair, names, draft).or_else(|| seen_left_first(clip, shape, &poses, pair))
@@ -19,7 +25,10 @@ pub(super) fn offer(draft: &mut Draft, clip: &Clip, names: &Names, shape: &Shape
         (&shape.arms, [Part::LeftUpperArm, Part::LeftLowerArm, Part::LeftHand, Part::LeftShoulder]),
     ] {
         let Some(left_first) = left_first(pair, draft) else {
-            return Err(check::error("left and right cannot be told: it has no toes and does not travel".to_owned(), clip.skeleton()));
+            return Err(check::error(
+                "left and right cannot be told: it has no toes and does not travel".to_owned(),
+                clip.skeleton(),
+            ));
         };
         for (limb, side) in pair.iter().zip(if left_first { SIDES } else { [Side::Right, Side::Left] }) {
             let is_arm = parts[3] == Part::LeftShoulder;
@@ -71,9 +80,9 @@ fn left_of(
     feet: [usize; 2],
     toes: [Option<usize>; 2],
 ) -> Option<Vec<DVec3>> {
-    let up = leading_axis(poses.iter().map(|pose| {
-        pose[head].translation - 0.5 * (pose[feet[0]].translation + pose[feet[1]].translation)
-    }));
+    let up = leading_axis(
+        poses.iter().map(|pose| pose[head].translation - 0.5 * (pose[feet[0]].translation + pose[feet[1]].translation)),
+    );
     let level = |vector: DVec3| vector - up * vector.dot(up);
     let toe_direction = |pose: &Vec<Transform>| -> DVec3 {
         feet.iter()
@@ -111,6 +120,8 @@ pub(super) fn doubt(humanoid: &Humanoid, clip: &Clip) -> Option<Note> {
         .filter(|(pose, left)| left.dot(pose[uppers[0]].translation - pose[uppers[1]].translation) > 0.0)
         .count();
     (agree * 4 < poses.len()).then(|| {
-        Note::new("the joints called left stand on the right of a body that faces where its toes point: is it mirrored?")
+        Note::new(
+            "the joints called left stand on the right of a body that faces where its toes point: is it mirrored?",
+        )
     })
 }

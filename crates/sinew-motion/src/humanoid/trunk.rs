@@ -38,7 +38,8 @@ pub(super) fn find(draft: &mut Draft, skeleton: &Skeleton, names: &Names) -> Res
     };
     let spine_chain = path(skeleton, hips, chest);
     if spine_chain.is_empty() {
-        let problem = format!("the trunk has no joint between the hips {:?} and the arms", skeleton.joints()[hips].name);
+        let problem =
+            format!("the trunk has no joint between the hips {:?} and the arms", skeleton.joints()[hips].name);
         return Err(check::error(problem, skeleton));
     }
     offer_spine(draft, names, &spine_chain, chest);
@@ -47,7 +48,13 @@ pub(super) fn find(draft: &mut Draft, skeleton: &Skeleton, names: &Names) -> Res
 }
 
 /// The hips: the lowest joint so named (or the root) that is above both legs and the chest; else where they meet.
-fn find_hips(draft: &mut Draft, skeleton: &Skeleton, names: &Names, above_legs: usize, chest: usize) -> Result<(), Error> {
+fn find_hips(
+    draft: &mut Draft,
+    skeleton: &Skeleton,
+    names: &Names,
+    above_legs: usize,
+    chest: usize,
+) -> Result<(), Error> {
     let meeting = common_ancestor(skeleton, above_legs, chest)
         .ok_or_else(|| check::error("legs and trunk hang from different roots".to_owned(), skeleton))?;
     // A joint that is the chest and above the legs too would leave no trunk.
@@ -81,7 +88,9 @@ fn find_neck(draft: &mut Draft, skeleton: &Skeleton, names: &Names, chest: usize
     if draft.joint(Part::Head).is_none() {
         // Only a neck is named: what continues it in a single chain belongs to it, and its last joint is the head.
         let mut at = top;
-        while let Some(next) = Some(at).filter(|&at| skeleton.children(at).count() == 1).and_then(|at| skeleton.children(at).next()) {
+        while let Some(next) =
+            Some(at).filter(|&at| skeleton.children(at).count() == 1).and_then(|at| skeleton.children(at).next())
+        {
             if names.kind(next) == Some(Kind::Other) || chain.len() > skeleton.len() {
                 break;
             }

@@ -1,4 +1,5 @@
 //! What the tests of the analysis share: the motion files, read, mapped and brought to metres and Y up.
+#![allow(clippy::unwrap_used, reason = "a test that cannot read its file fails")]
 #![allow(dead_code, reason = "each test file uses a part")]
 
 use sinew_motion::formats::{Parsed, amc, bvh, fbx, gltf};
