@@ -59,8 +59,11 @@ pub fn repeat(clip: &Clip, humanoid: &Humanoid, cycle: &Cycle, times: usize) -> 
                 let local = seams[joint].correct(clip.local(first + frame, joint), frame, length, window);
                 if is_root[joint] { carried * local } else { local }
             }));
-            for local in &mut locals {
-                local.rotation = local.rotation.normalize();
+            for (joint, local) in locals.iter_mut().enumerate() {
+                let rotation = local.rotation.normalize();
+                // The sign of a quaternion means nothing, but who differentiates it likes it to stay.
+                let before = repeated.frames().checked_sub(1).map_or(rotation, |frame| repeated.rotation(frame, joint));
+                local.rotation = if before.dot(rotation) < 0.0 { -rotation } else { rotation };
             }
             repeated.push(&locals);
             rows.push(if round == times { last } else { first + frame });

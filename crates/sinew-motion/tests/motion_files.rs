@@ -274,6 +274,34 @@ fn repeated_cycles_are_seamless() {
             let change = step(seam).distance(step(seam - 1));
             assert!(change < (0.5 * longest).max(0.002), "{file}: hips change by {change} m per frame");
         }
+        // Each joint for itself, too: neither its speed nor the change of its speed stands out at a seam. Half a degree is
+        // below what anybody sees.
+        let slack = 0.5_f64.to_radians();
+        for joint in 0..clip.skeleton().len() {
+            let turn = |clip: &sinew_motion::Clip, frame: usize| {
+                let turn = clip.rotation(frame, joint).conjugate() * clip.rotation(frame + 1, joint);
+                (if turn.w < 0.0 { -turn } else { turn }).to_scaled_axis()
+            };
+            let change = |clip: &sinew_motion::Clip, frame: usize| turn(clip, frame).distance(turn(clip, frame - 1));
+            // What the person did about the contacts counts too: the seam is at one.
+            let from = cycle.first.saturating_sub(5).max(moves_from(&body.clip, &body.humanoid)) + 1;
+            let to = (cycle.last + 5).min(body.clip.frames() - 1);
+            let within = |of: &dyn Fn(usize) -> f64| (from..to).map(of).fold(0.0, f64::max);
+            let speed = within(&|frame| turn(&body.clip, frame).length());
+            let jerk = within(&|frame| change(&body.clip, frame));
+            for frame in 3 * length - 2..3 * length + 2 {
+                assert!(
+                    turn(&clip, frame).length() <= 1.5 * speed + slack,
+                    "{file}: joint {joint}, frame {frame}: {} {speed}",
+                    turn(&clip, frame).length()
+                );
+                assert!(
+                    change(&clip, frame) <= 1.5 * jerk + slack,
+                    "{file}: joint {joint}, frame {frame}: {} {jerk}",
+                    change(&clip, frame)
+                );
+            }
+        }
         for stride in &strides {
             assert!((stride - strides[0]).abs() < 1e-9, "{file}: {strides:?}");
             assert!((stride - cycle.stride_m).abs() < 0.01 + 0.02 * cycle.stride_m, "{file}: {strides:?} {cycle:?}");
@@ -340,4 +368,28 @@ fn a_captured_walk_survives_60_hz_and_back_and_6_hz() {
     // Between frames of a walk at 60 Hz a cubic is right to millimetres, CMU's noise
     // in the arms included (4.4 mm); 6 Hz takes off some of each stop.
     assert!(worst[0] < 6e-3 && worst[1] < 1e-2, "{worst:?}");
+}
+
+#[test]
+fn clips_of_few_frames_or_none_are_no_trouble() {
+    let Some(mocap) = mocap() else { return };
+    let body = Body::load(&mocap.join("cmu_bvh_motionbuilder/07_01.bvh"));
+    for frames in [0, 1, 2, 3, 9, 30] {
+        let mut clip = sinew_motion::Clip::new(
+            body.clip.skeleton().clone(),
+            body.clip.frame_time_secs(),
+            body.clip.moving().to_vec(),
+        );
+        for frame in 0..frames {
+            let locals: Vec<_> = (0..clip.skeleton().len()).map(|joint| body.clip.local(frame, joint)).collect();
+            clip.push(&locals);
+        }
+        let humanoid = sinew_motion::Humanoid::of(&clip, &[]).unwrap();
+        assert_eq!(find_cycle(&clip, &humanoid), None, "{frames} frames");
+        assert!(floor_height_m(&clip, &humanoid).is_finite());
+        assert_eq!(contacts(&clip, &humanoid).left.len(), frames);
+        assert_eq!(facings(&clip, &humanoid).len(), frames);
+        assert!(find_defects(&clip, &humanoid).len() < 20, "{frames} frames");
+        assert!((1.2..1.8).contains(&stature(&clip, &humanoid)), "{frames} frames: {}", stature(&clip, &humanoid));
+    }
 }
