@@ -43,22 +43,34 @@ const FROZEN_SECS: f64 = 0.1;
 const FASTEST_TURN_RAD_S: f64 = 60.0;
 /// Fastest that hips travel: the fastest sprint is 12.4 m/s.
 const FASTEST_TRAVEL_M_S: f64 = 13.0;
+/// Frames that a glide from the rest pose into the motion takes at most.
+const GLIDE_FRAMES: usize = 12;
+/// Longest flight: a jump of 0.9 m takes 0.86 s \[s\].
+const LONGEST_FLIGHT_SECS: f64 = 1.0;
 /// Standing feet this far off Y = 0 are worth telling \[m\].
 const OFF_FLOOR_M: f64 = 0.03;
 /// Slide of a foot within one stance that is worth telling \[m\].
 const SKATE_M: f64 = 0.05;
 
-/// The first frame that belongs to the motion: 1 when frame 0 is a rest pose (as in CMU's BVH conversions), otherwise 0.
+/// The first frame that belongs to the motion: 0, or the frame after a rest pose at the beginning. CMU's BVH conversions begin
+/// with a T-pose in frame 0; those for Daz also glide from it into the motion over up to eight frames.
 ///
-/// Frame 0 is one when it differs from frame 1 by more than 10° (root mean square over the joints) and by ten times the largest
-/// step of the frames after it.
+/// Frame 0 is such a pose when it differs from frame 1 by more than 8° (root mean square over the joints) and by six times
+/// what later frames (the 90th percentile over about 60) differ by; the glide lasts while frames still differ by four times as
+/// much.
 pub fn moves_from(clip: &Clip, humanoid: &Humanoid) -> usize {
-    if clip.frames() < 3 {
+    let glide = GLIDE_FRAMES.min(clip.frames() / 2);
+    if glide < 2 {
         return 0;
     }
-    let leap = pose_gap(clip, humanoid, 0, 1);
-    let usual = (1..clip.frames().min(30) - 1).map(|frame| pose_gap(clip, humanoid, frame, frame + 1)).fold(0.0, f64::max);
-    usize::from(leap.to_degrees() > 10.0 && leap > 10.0 * usual)
+    let step = |frame: usize| pose_gap(clip, humanoid, frame, frame + 1).to_degrees();
+    let later = (glide..(glide + 60).min(clip.frames() - 1)).map(step).collect();
+    let usual = quantile(later, 0.9).unwrap_or(0.0);
+    if step(0) < 8.0 || step(0) < 6.0 * usual {
+        return 0;
+    }
+    // A tenth of a degree is rest.
+    (0..glide).rev().find(|&frame| step(frame) > 4.0 * usual.max(0.1)).map_or(0, |frame| frame + 1)
 }
 
 /// Finds what is wrong with a clip in metres and Y up, in the order of [`DefectKind`].
@@ -68,13 +80,13 @@ pub fn find_defects(clip: &Clip, humanoid: &Humanoid) -> Vec<Defect> {
         return defects;
     }
     let from = moves_from(clip, humanoid);
-    if from == 1 {
-        let gap = pose_gap(clip, humanoid, 0, 1).to_degrees();
+    if from > 0 {
+        let gap = pose_gap(clip, humanoid, 0, from).to_degrees();
         defects.push(Defect {
             kind: DefectKind::RestPoseFirst,
-            frames: Some((0, 0)),
+            frames: Some((0, from - 1)),
             joint: None,
-            text: format!("frame 0 is a rest pose, {gap:.0}° from frame 1: the motion begins at frame 1"),
+            text: format!("frame 0 is a rest pose, {gap:.0}° from the motion, which begins at frame {from}"),
         });
     }
     frozen(clip, &mut defects);
@@ -130,13 +142,23 @@ fn jumps(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect
             usual.push(clip.rotation(frame - 1, joint).angle_between(clip.rotation(frame, joint)));
         }
         for (at, &turn) in usual.iter().enumerate() {
-            // A fast move has fast neighbours, a leap does not.
-            let beside = |other: Option<usize>| other.and_then(|other| usual.get(other)).copied().unwrap_or(0.0);
-            let neighbours = beside(at.checked_sub(1)).max(beside(Some(at + 1)));
+            // A fast move has fast neighbours, a leap (there, or there and back) does not.
+            let around = usual[at.saturating_sub(3)..(at + 4).min(usual.len())].to_vec();
+            let neighbours = quantile(around, 0.5).unwrap_or(0.0);
             if turn * fps > FASTEST_TURN_RAD_S || turn.to_degrees() > 20.0 && turn > 6.0 * neighbours {
                 let frame = from + at;
-                let text = format!("{part} ({:?}) turns {:.0}° from frame {frame} to {}", name(joint), turn.to_degrees(), frame + 1);
-                defects.push(Defect { kind: DefectKind::Jump, frames: Some((frame, frame + 1)), joint: Some(joint), text });
+                let text = format!(
+                    "{part} ({:?}) turns {:.0}° from frame {frame} to {}",
+                    name(joint),
+                    turn.to_degrees(),
+                    frame + 1
+                );
+                defects.push(Defect {
+                    kind: DefectKind::Jump,
+                    frames: Some((frame, frame + 1)),
+                    joint: Some(joint),
+                    text,
+                });
             }
         }
     }
@@ -152,8 +174,20 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
         let text = format!("standing feet are {:.0} mm below Y = 0", -1e3 * floor);
         defects.push(Defect { kind: DefectKind::FeetUnderFloor, frames: None, joint: None, text });
     }
-    let contacts = contacts(clip, humanoid);
     let feet = Feet::of(clip, humanoid);
+    let high: Vec<bool> = (0..clip.frames())
+        .map(|frame| {
+            feet.sides.iter().flatten().all(|point| point.positions[frame].y > floor + 2.0 * OFF_FLOOR_M * feet.scale)
+        })
+        .collect();
+    for (first, last) in runs(&high) {
+        let secs = (last + 1 - first) as f64 * clip.frame_time_secs();
+        if secs > LONGEST_FLIGHT_SECS {
+            let text = format!("both feet float for {secs:.1} s, in frames {first} to {last}");
+            defects.push(Defect { kind: DefectKind::FloatingFeet, frames: Some((first, last)), joint: None, text });
+        }
+    }
+    let contacts = contacts(clip, humanoid);
     for side in [Side::Left, Side::Right] {
         for (first, last) in contacts.stances(side) {
             let first = first.max(from);
@@ -165,11 +199,20 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
                 let level = |frame: usize| glam::DVec2::new(point.positions[frame].x, point.positions[frame].z);
                 middle.clone().map(|frame| level(frame).distance(level(*middle.start()))).fold(0.0, f64::max)
             };
-            let least = feet.sides[side as usize].iter().map(|point| (slide(point), point.joint)).min_by(|a, b| a.0.total_cmp(&b.0));
+            let least = feet.sides[side as usize]
+                .iter()
+                .map(|point| (slide(point), point.joint))
+                .min_by(|a, b| a.0.total_cmp(&b.0));
             if let Some((slide, joint)) = least.filter(|(slide, _)| *slide > SKATE_M * feet.scale) {
                 let foot = if side == Side::Left { "left" } else { "right" };
-                let text = format!("the {foot} foot slides {:.0} mm while it stands in frames {first} to {last}", 1e3 * slide);
-                defects.push(Defect { kind: DefectKind::FootSkate, frames: Some((first, last)), joint: Some(joint), text });
+                let text =
+                    format!("the {foot} foot slides {:.0} mm while it stands in frames {first} to {last}", 1e3 * slide);
+                defects.push(Defect {
+                    kind: DefectKind::FootSkate,
+                    frames: Some((first, last)),
+                    joint: Some(joint),
+                    text,
+                });
             }
         }
     }
@@ -177,7 +220,8 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
 
 fn zero_bones(clip: &Clip, humanoid: &Humanoid, defects: &mut Vec<Defect>) {
     let skeleton = clip.skeleton();
-    let lengths: Vec<f64> = (0..skeleton.len()).map(|joint| clip.translation(clip.frames() / 2, joint).length()).collect();
+    let lengths: Vec<f64> =
+        (0..skeleton.len()).map(|joint| clip.translation(clip.frames() / 2, joint).length()).collect();
     let typical = quantile(lengths.clone(), 0.75).unwrap_or(0.0);
     for (joint, bone) in skeleton.joints().iter().enumerate() {
         let Some(parent) = bone.parent else { continue };
@@ -185,7 +229,8 @@ fn zero_bones(clip: &Clip, humanoid: &Humanoid, defects: &mut Vec<Defect>) {
             continue;
         }
         let of = humanoid.part(joint).map(Part::name).map_or(String::new(), |part| format!(" ({part})"));
-        let text = format!("joint {:?}{of} is at the place of its parent {:?}", bone.name, skeleton.joints()[parent].name);
+        let text =
+            format!("joint {:?}{of} is at the place of its parent {:?}", bone.name, skeleton.joints()[parent].name);
         defects.push(Defect { kind: DefectKind::ZeroLengthBone, frames: None, joint: Some(joint), text });
     }
 }

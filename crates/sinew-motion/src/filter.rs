@@ -62,7 +62,8 @@ impl LowPass {
         }
         let last = signal.len() - 1;
         let pad = self.settle.min(last);
-        let reflect = |about: [f64; N], value: [f64; N]| std::array::from_fn(|axis| about[axis] + (about[axis] - value[axis]));
+        let reflect =
+            |about: [f64; N], value: [f64; N]| std::array::from_fn(|axis| about[axis] + (about[axis] - value[axis]));
         let mut padded: Vec<[f64; N]> = Vec::with_capacity(signal.len() + 2 * pad);
         padded.extend((1..=pad).rev().map(|at| reflect(signal[0], signal[at])));
         padded.extend_from_slice(signal);
@@ -210,7 +211,10 @@ pub struct PoseStream {
 impl PoseStream {
     /// A filter for poses of so many joints.
     pub fn new(filter: LowPass, joints: usize) -> PoseStream {
-        PoseStream { rotations: vec![LowPassStream::new(filter); joints], translations: vec![LowPassStream::new(filter); joints] }
+        PoseStream {
+            rotations: vec![LowPassStream::new(filter); joints],
+            translations: vec![LowPassStream::new(filter); joints],
+        }
     }
 
     /// Filters the next pose in place; transforms beyond the number of joints are left alone.

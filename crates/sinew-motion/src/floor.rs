@@ -8,7 +8,8 @@ use glam::DVec3;
 /// Speed below which a point of a foot stands, and above which it stands no longer \[m/s\], for a stature of 1.7 m.
 const SLOW_M_S: [f64; 2] = [0.35, 0.6];
 /// Height above its own standing height below which it stands, and above which it stands no longer \[m\], for 1.7 m.
-const LOW_M: [f64; 2] = [0.035, 0.06];
+/// Capture floors are uneven by 2 cm, and a sole that rolls off lifts the ankle.
+const LOW_M: [f64; 2] = [0.055, 0.09];
 
 /// Height of the floor \[m\] under a clip in metres and Y up: that of the lowest points of the feet when they stand.
 ///
@@ -73,8 +74,8 @@ pub(crate) fn runs(flags: &[bool]) -> Vec<(usize, usize)> {
 
 /// Finds the stance of both feet in a clip in metres and Y up, from joint positions alone.
 ///
-/// A foot stands while its ankle, its toes or its tip is both low (within 3.5 cm of that point's own standing height, the 5th percentile
-/// over the clip) and slow (below 0.35 m/s); it goes on standing until no point is within 6 cm and below 0.6 m/s. Lengths and
+/// A foot stands while its ankle, its toes or its tip is both low (within 5.5 cm of that point's own standing height, the 5th percentile
+/// over the clip) and slow (below 0.35 m/s); it goes on standing until no point is within 9 cm and below 0.6 m/s. Lengths and
 /// speeds scale with stature / 1.7 m. Gaps and stances below 40 ms are dropped.
 pub fn contacts(clip: &Clip, humanoid: &Humanoid) -> Contacts {
     let feet = Feet::of(clip, humanoid);
@@ -119,7 +120,11 @@ impl FootPoint {
     /// Speed by central difference \[m/s\].
     pub fn speed(&self, frame: usize, fps: f64) -> f64 {
         let (before, after) = (frame.saturating_sub(1), (frame + 1).min(self.positions.len() - 1));
-        if before == after { 0.0 } else { self.positions[before].distance(self.positions[after]) * fps / (after - before) as f64 }
+        if before == after {
+            0.0
+        } else {
+            self.positions[before].distance(self.positions[after]) * fps / (after - before) as f64
+        }
     }
 }
 
@@ -138,7 +143,10 @@ impl Feet {
             points
         });
         let mut sides = points.each_ref().map(|points| {
-            points.iter().map(|&(joint, _)| FootPoint { joint, positions: Vec::with_capacity(clip.frames()) }).collect::<Vec<_>>()
+            points
+                .iter()
+                .map(|&(joint, _)| FootPoint { joint, positions: Vec::with_capacity(clip.frames()) })
+                .collect::<Vec<_>>()
         });
         let mut world = Vec::new();
         for frame in 0..clip.frames() {

@@ -19,6 +19,8 @@ const LEAST_STRIDE: f64 = 0.25;
 const OTHER_FOOT: std::ops::RangeInclusive<f64> = 0.25..=0.75;
 /// Ends further apart than this are no cycle \[deg\].
 const LARGEST_GAP_DEG: f64 = 20.0;
+/// A loop's ends agree this well \[deg\].
+const LOOP_GAP_DEG: f64 = 3.0;
 /// Below this the legs do not repeat themselves.
 const LEAST_PERIODICITY: f64 = 0.5;
 
@@ -41,22 +43,24 @@ pub struct Cycle {
     pub stride_m: f64,
 }
 
-/// Finds the stride whose ends agree best, in a clip in metres and Y up; `None` when nobody walks or runs. A walk on the spot
-/// (as games have them) counts when the clip as a whole is a loop.
+/// Finds the stride whose ends agree best, in a clip in metres and Y up; `None` when nobody walks or runs.
+///
+/// A clip that is one loop, as games have them, is a cycle as a whole, also on the spot: its ends agree within 3° and its legs
+/// take turns.
 pub fn find_cycle(clip: &Clip, humanoid: &Humanoid) -> Option<Cycle> {
     let legs = Legs::of(clip, humanoid)?;
     let mut best: Option<Cycle> = None;
     for side in [Side::Left, Side::Right] {
         let (own, other) = (&legs.moments[side as usize], &legs.moments[1 - side as usize]);
         for pair in own.windows(2) {
-            if let Some(cycle) = legs.cycle(clip, humanoid, side, [pair[0], pair[1]], other) {
-                if best.is_none_or(|best| cycle.pose_gap_deg < best.pose_gap_deg) {
-                    best = Some(cycle);
-                }
+            if let Some(cycle) = legs.cycle(clip, humanoid, side, [pair[0], pair[1]], other)
+                && best.is_none_or(|best| cycle.pose_gap_deg < best.pose_gap_deg)
+            {
+                best = Some(cycle);
             }
         }
     }
-    best
+    best.or_else(|| legs.loop_of(clip, humanoid))
 }
 
 /// What the legs do, frame by frame.
@@ -68,6 +72,8 @@ struct Legs {
     /// Frames in which the left and the right foot is farthest ahead.
     moments: [Vec<usize>; 2],
     stature_m: f64,
+    /// How far ahead of the hips each foot is \[m\].
+    ahead: [Vec<f64>; 2],
 }
 
 impl Legs {
@@ -90,24 +96,57 @@ impl Legs {
             hips.push(at(humanoid.hips()));
             feet.push(legs.map(|leg| at(leg[2])));
             let left = DVec3::Y.cross(forward);
-            let in_facing = |vector: DVec3| DVec3::new(vector.dot(left), vector.y, vector.dot(forward)).normalize_or_zero();
+            let in_facing =
+                |vector: DVec3| DVec3::new(vector.dot(left), vector.y, vector.dot(forward)).normalize_or_zero();
             let bone = |leg: [usize; 3], bone: usize| in_facing(at(leg[bone + 1]) - at(leg[bone]));
             directions.push([bone(legs[0], 0), bone(legs[1], 0), bone(legs[0], 1), bone(legs[1], 1)]);
         }
         let ways = ways(&hips[from..], &faces[from..], clip.fps(), stature_m);
-        let moments = [0, 1].map(|side| {
-            let ahead: Vec<f64> =
-                ways.iter().enumerate().map(|(at, way)| (feet[from + at][side] - hips[from + at]).dot(*way)).collect();
-            peaks(&ahead, clip.fps(), stature_m).into_iter().map(|at| from + at).collect()
+        let ahead = [0, 1].map(|side| -> Vec<f64> {
+            ways.iter().enumerate().map(|(at, way)| (feet[from + at][side] - hips[from + at]).dot(*way)).collect()
         });
-        Some(Legs { from, hips, directions, moments, stature_m })
+        let moments =
+            ahead.each_ref().map(|ahead| peaks(ahead, clip.fps(), stature_m).into_iter().map(|at| from + at).collect());
+        Some(Legs { from, hips, directions, moments, stature_m, ahead })
     }
 
-    fn cycle(&self, clip: &Clip, humanoid: &Humanoid, foot: Side, [first, last]: [usize; 2], other: &[usize]) -> Option<Cycle> {
+    /// The clip as a whole, when it is a loop in which the legs take turns.
+    fn loop_of(&self, clip: &Clip, humanoid: &Humanoid) -> Option<Cycle> {
+        let (first, last) = (self.from, clip.frames() - 1);
+        let period_secs = (last - first) as f64 * clip.frame_time_secs();
+        let pose_gap_deg = pose_gap(clip, humanoid, first, last).to_degrees();
+        let centred = self.ahead.each_ref().map(|ahead| {
+            let mean = ahead.iter().sum::<f64>() / ahead.len() as f64;
+            ahead.iter().map(|value| value - mean).collect::<Vec<f64>>()
+        });
+        let product = |a: usize, b: usize| {
+            centred[a].iter().zip(&centred[b]).map(|(a, b)| a * b).sum::<f64>() / self.ahead[a].len() as f64
+        };
+        let (left, right) = (product(0, 0).sqrt(), product(1, 1).sqrt());
+        let step = LEAST_STRIDE * self.stature_m;
+        let walks = left.min(right) > 0.15 * step && product(0, 1) < -0.3 * left * right;
+        if !PERIOD_SECS.contains(&period_secs) || pose_gap_deg > LOOP_GAP_DEG || !walks {
+            return None;
+        }
+        let moved = self.hips[last] - self.hips[first];
+        let stride_m = DVec3::new(moved.x, 0.0, moved.z).length();
+        let foot = if self.ahead[0][0] >= self.ahead[1][0] { Side::Left } else { Side::Right };
+        Some(Cycle { first, last, period_secs, foot, pose_gap_deg, periodicity: 1.0, stride_m })
+    }
+
+    fn cycle(
+        &self,
+        clip: &Clip,
+        humanoid: &Humanoid,
+        foot: Side,
+        [first, last]: [usize; 2],
+        other: &[usize],
+    ) -> Option<Cycle> {
         let period_secs = (last - first) as f64 * clip.frame_time_secs();
         let mut between = other.iter().filter(|&&at| (first..last).contains(&at));
         let share = |at: usize| (at - first) as f64 / (last - first) as f64;
-        let alternates = matches!((between.next(), between.next()), (Some(&at), None) if OTHER_FOOT.contains(&share(at)));
+        let alternates =
+            matches!((between.next(), between.next()), (Some(&at), None) if OTHER_FOOT.contains(&share(at)));
         let moved = self.hips[last] - self.hips[first];
         let stride_m = DVec3::new(moved.x, 0.0, moved.z).length();
         if !PERIOD_SECS.contains(&period_secs) || !alternates || stride_m < LEAST_STRIDE * self.stature_m {
@@ -125,7 +164,8 @@ impl Legs {
         let lag = last - first;
         let from = self.from.max(first.saturating_sub(lag / 4));
         let to = (first + lag / 4).min(self.directions.len() - lag);
-        let square = |a: &[DVec3; 4], b: &[DVec3; 4]| -> f64 { a.iter().zip(b).map(|(a, b)| a.distance_squared(*b)).sum() };
+        let square =
+            |a: &[DVec3; 4], b: &[DVec3; 4]| -> f64 { a.iter().zip(b).map(|(a, b)| a.distance_squared(*b)).sum() };
         let difference = (from..to).map(|at| square(&self.directions[at], &self.directions[at + lag])).sum::<f64>()
             / (to - from).max(1) as f64;
         let stride = &self.directions[first..=last];

@@ -58,8 +58,11 @@ pub fn repeat(clip: &Clip, humanoid: &Humanoid, (first, last): (usize, usize), t
                 let local = seams[joint].correct(clip.local(first + frame, joint), frame, length, window);
                 if is_root[joint] { carried * local } else { local }
             }));
-            for local in &mut locals {
-                local.rotation = local.rotation.normalize();
+            for (joint, local) in locals.iter_mut().enumerate() {
+                let rotation = local.rotation.normalize();
+                // The sign of a quaternion means nothing, but who differentiates it likes it to stay.
+                let before = repeated.frames().checked_sub(1).map_or(rotation, |frame| repeated.rotation(frame, joint));
+                local.rotation = if before.dot(rotation) < 0.0 { -rotation } else { rotation };
             }
             repeated.push(&locals);
             rows.push(if round == times { last } else { first + frame });
@@ -129,7 +132,9 @@ impl Seam {
     fn correct(&self, local: Transform, frame: usize, length: usize, window: f64) -> Transform {
         let share = frame as f64 / self.length - 0.5;
         // A hat of slope 1 at the seam that is over, speed included, one window away from it.
-        let hat = |distance: f64| if distance < window { distance * (1.0 - distance / window) * (1.0 - distance / window) } else { 0.0 };
+        let hat = |distance: f64| {
+            if distance < window { distance * (1.0 - distance / window) * (1.0 - distance / window) } else { 0.0 }
+        };
         let blend = -hat(frame as f64) - hat((length - frame) as f64);
         let turn = self.turn * share + self.turn_speed * blend;
         // The shift is known in the parent's frame at the end; at the beginning that frame is turned back.

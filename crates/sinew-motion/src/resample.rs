@@ -62,7 +62,10 @@ pub fn resample(clip: &Clip, fps: f64) -> Clip {
 /// How many source frames one new frame is long.
 enum Step {
     /// In whole numbers: exact however long the clip.
-    Fraction { numerator: usize, denominator: usize },
+    Fraction {
+        numerator: usize,
+        denominator: usize,
+    },
     Real(f64),
 }
 

@@ -149,7 +149,7 @@ pub(super) fn find(clip: &Clip) -> Result<Shape, String> {
     let tree = Tree::new(clip);
     let skeleton = clip.skeleton();
     let scale = (0..skeleton.len()).map(|joint| tree.reach[joint]).fold(0.0, f64::max);
-    let pairs: Vec<Pair> = (0..skeleton.len()).filter_map(|at| tree.pair(at, scale)).collect();
+    let mut pairs: Vec<Pair> = (0..skeleton.len()).filter_map(|at| tree.pair(at, scale)).collect();
     if pairs.len() < 2 {
         let found = if pairs.is_empty() { "no pair" } else { "only one pair" };
         return Err(format!(
@@ -157,8 +157,11 @@ pub(super) fn find(clip: &Clip) -> Result<Shape, String> {
             skeleton.len()
         ));
     }
-    // Arms hang at a joint below the one with the legs, in a branch that is no leg. Most bone in all wins.
     let bones = |pair: &Pair| pair.limbs.iter().flat_map(|limb| limb.lengths).sum::<f64>();
+    // No body has more than a few; a hedge of a tree must not take for ever.
+    pairs.sort_by(|a, b| bones(b).total_cmp(&bones(a)));
+    pairs.truncate(64);
+    // Arms hang at a joint below the one with the legs, in a branch that is no leg. Most bone in all wins.
     let mut best: Option<(f64, usize, usize)> = None;
     for (at_legs, legs) in pairs.iter().enumerate() {
         for (at_arms, arms) in pairs.iter().enumerate() {

@@ -70,15 +70,15 @@ fn chains(draft: &Draft, skeleton: &Skeleton) -> Result<(), String> {
             for &part in chain {
                 let part = Draft::sided(part, side);
                 let Some(joint) = draft.joint(part) else { continue };
-                if let Some((upper, upper_joint)) = above {
-                    if !skeleton.is_ancestor(upper_joint, joint) {
-                        let name = |joint: usize| &skeleton.joints()[joint].name;
-                        return Err(format!(
-                            "{part} ({:?}) does not hang from {upper} ({:?})",
-                            name(joint),
-                            name(upper_joint)
-                        ));
-                    }
+                if let Some((upper, upper_joint)) = above
+                    && !skeleton.is_ancestor(upper_joint, joint)
+                {
+                    let name = |joint: usize| &skeleton.joints()[joint].name;
+                    return Err(format!(
+                        "{part} ({:?}) does not hang from {upper} ({:?})",
+                        name(joint),
+                        name(upper_joint)
+                    ));
                 }
                 above = Some((part, joint));
             }
@@ -99,10 +99,10 @@ pub(super) fn all(draft: &Draft, skeleton: &Skeleton) -> Result<(), Error> {
         let Some(joint) = draft.joint(part) else { continue };
         for upper in [Part::LeftUpperArm, Part::RightUpperArm, Part::LeftUpperLeg, Part::RightUpperLeg] {
             let same_limb = upper.side() == part.side() && (is_arm(upper) == is_arm(part));
-            if let Some(above) = draft.joint(upper).filter(|_| !same_limb) {
-                if skeleton.is_ancestor(above, joint) {
-                    return Err(error(format!("{part} hangs from {upper}"), skeleton));
-                }
+            if let Some(above) = draft.joint(upper).filter(|_| !same_limb)
+                && skeleton.is_ancestor(above, joint)
+            {
+                return Err(error(format!("{part} hangs from {upper}"), skeleton));
             }
         }
     }
@@ -126,7 +126,8 @@ pub(super) fn stands_on_two_legs(draft: &Draft, clip: &Clip, names: &Names) -> R
     for pose in &poses {
         let point = |joint: usize| pose[joint].translation;
         let trunk = (point(chest) - point(hips)).normalize_or_zero();
-        let reach = |upper, end, side| Some((point(draft.on(end, side)?) - point(draft.on(upper, side)?)).normalize_or_zero());
+        let reach =
+            |upper, end, side| Some((point(draft.on(end, side)?) - point(draft.on(upper, side)?)).normalize_or_zero());
         let mut level = true;
         let mut foot_to_shin = 0.0;
         for side in SIDES {
@@ -153,7 +154,9 @@ pub(super) fn stands_on_two_legs(draft: &Draft, clip: &Clip, names: &Names) -> R
             None => "stands on its toes".to_owned(),
         };
         return Err(error(
-            format!("it goes on four limbs with a level trunk and {why}: a four-legged animal, where Sinew needs a biped"),
+            format!(
+                "it goes on four limbs with a level trunk and {why}: a four-legged animal, where Sinew needs a biped"
+            ),
             clip.skeleton(),
         ));
     }

@@ -28,10 +28,11 @@ impl Draft {
 
     /// Sets a part unless the user or a better source has set it, or the joint is another part already.
     pub fn offer(&mut self, part: Part, joint: Option<usize>, origin: Origin) {
-        if let Some(joint) = joint {
-            if self.joint(part).is_none() && self.part_of(joint).is_none() {
-                self.parts[part as usize] = Some((joint, origin));
-            }
+        if let Some(joint) = joint
+            && self.joint(part).is_none()
+            && self.part_of(joint).is_none()
+        {
+            self.parts[part as usize] = Some((joint, origin));
         }
     }
 

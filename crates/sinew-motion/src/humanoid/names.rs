@@ -250,10 +250,11 @@ fn split(name: &str) -> Vec<String> {
 
 fn understand(words: &[String], shared: Option<&str>) -> Name {
     let mut words: Vec<&str> = words.iter().map(String::as_str).collect();
-    if let Some(shared) = shared {
-        if words.len() > 1 && words[0] == shared {
-            words.remove(0);
-        }
+    if let Some(shared) = shared
+        && words.len() > 1
+        && words[0] == shared
+    {
+        words.remove(0);
     }
     let mut side = words.iter().find_map(|word| side_word(word));
     words.retain(|word| side_word(word).is_none());
