@@ -341,7 +341,10 @@ fn repeating_does_the_same_to_the_bit() {
     let Some(mocap) = mocap() else { return };
     let body = Body::load(&mocap.join("cmu_bvh_motionbuilder/02_01.bvh"));
     let cycle = find_cycle(&body.clip, &body.humanoid).unwrap();
-    assert_eq!(repeat(&body.clip, &body.humanoid, (cycle.first, cycle.last), 4), repeat(&body.clip, &body.humanoid, &cycle, 4));
+    assert_eq!(
+        repeat(&body.clip, &body.humanoid, (cycle.first, cycle.last), 4),
+        repeat(&body.clip, &body.humanoid, &cycle, 4)
+    );
 }
 
 #[test]

@@ -77,12 +77,7 @@ impl MotionFile {
         MotionFile::understood(PathBuf::new(), Format::Bvh, parsed, options)
     }
 
-    fn understood(
-        path: PathBuf,
-        format: Format,
-        parsed: Parsed,
-        options: &ReadOptions,
-    ) -> Result<MotionFile, Error> {
+    fn understood(path: PathBuf, format: Format, parsed: Parsed, options: &ReadOptions) -> Result<MotionFile, Error> {
         if let Some(unit_m) = options.unit_m
             && !(1e-6..=1e3).contains(&unit_m)
         {

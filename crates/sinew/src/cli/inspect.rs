@@ -42,11 +42,7 @@ fn words(of: &Inspection) -> String {
     line(format_args!("{}", of.file));
     line(format_args!(
         "  {} · {} frames at {:.3} fps, {:.2} s · 1 unit = {} m",
-        of.format,
-        of.frames,
-        of.fps,
-        of.duration_s,
-        of.unit_m
+        of.format, of.frames, of.fps, of.duration_s, of.unit_m
     ));
     if let Some(why) = &of.no_body {
         line(format_args!("  no human body: {why}"));

@@ -112,7 +112,8 @@ impl Respond {
         bar.set_message("responding");
         let answer = respond(&file, &job, basis.as_ref()).with_context(|| file.path.display().to_string())?;
         bar.set_message("writing");
-        let mut outputs = Outputs { motions: self.output.clone(), report: self.report.clone(), picture: self.picture.clone() };
+        let mut outputs =
+            Outputs { motions: self.output.clone(), report: self.report.clone(), picture: self.picture.clone() };
         if self.clip.is_none() && outputs.is_empty() {
             outputs = Outputs::in_folder("out".as_ref());
         }

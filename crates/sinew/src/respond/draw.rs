@@ -63,7 +63,8 @@ fn subtitle(answer: &Answer, pushes: &[Push]) -> String {
         [] => "no push".to_owned(),
         [push] => {
             let back = answer.report.pushes[0].recovered_after_s;
-            let back = back.map_or("does not recover".to_owned(), |secs| format!("recovered {secs:.2} s after it ended"));
+            let back =
+                back.map_or("does not recover".to_owned(), |secs| format!("recovered {secs:.2} s after it ended"));
             format!(
                 "{:.0} N on the {} at {:.2} s for {:.2} s; {back}",
                 push.force_n.length(),

@@ -132,8 +132,7 @@ impl PushReport {
             at_s: push.at_secs,
             for_s: push.for_secs,
             peak_deflection_deg: timeline.peaks(push.at_secs, next_secs),
-            recovered_after_s: world_force_n
-                .and_then(|_| timeline.recovered(push.at_secs + push.for_secs, next_secs)),
+            recovered_after_s: world_force_n.and_then(|_| timeline.recovered(push.at_secs + push.for_secs, next_secs)),
         }
     }
 }
@@ -155,9 +154,8 @@ pub(super) struct Timeline {
 
 impl Timeline {
     pub(super) fn of(pushed: &Track, unpushed: &Track) -> Timeline {
-        let rows = (0..pushed.poses().len())
-            .map(|index| (pushed.secs(index), pushed.deflection(unpushed, index)))
-            .collect();
+        let rows =
+            (0..pushed.poses().len()).map(|index| (pushed.secs(index), pushed.deflection(unpushed, index))).collect();
         Timeline { rows }
     }
 
