@@ -65,12 +65,14 @@ pub fn inverse<S: Real>(
     }
     take_forces(links.reference, forces, wrenches);
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate().rev() {
-        let wrench = wrenches[index + 1];
-        let load = joint_load(node, &links.placed[index + 1], &wrench);
+        // In place: copies of what has just been written stall in the store buffer.
+        let (wrenches, wrench) = wrenches.split_at_mut(index + 1);
+        let (inertias, composite) = inertias.split_at_mut(index + 1);
+        let (wrench, composite) = (&wrench[0], &composite[0]);
+        let load = joint_load(node, &links.placed[index + 1], wrench);
         out.loads[index] = load;
         put(motion.axes * load, node, &mut out.tau);
-        let composite = inertias[index + 1];
-        fill_rows(&tree.nodes, index, &composite, axes, &mut out.mass);
+        fill_rows(&tree.nodes, index, composite, axes, &mut out.mass);
         wrenches[node.parent_slot] += wrench;
         inertias[node.parent_slot] += composite;
     }

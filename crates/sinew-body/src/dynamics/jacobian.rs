@@ -50,8 +50,7 @@ fn each_axis<S: Real>(
     while slot != 0 {
         let node = &tree.nodes[slot - 1];
         let axes = world_axes(node, &state.motions[slot - 1], &links.placed[slot]);
-        for axis in 0..node.axes {
-            let (angular, linear) = axes.axis(axis);
+        for (axis, (angular, linear)) in axes.each().into_iter().enumerate().take(node.axes) {
             columns[node.first_dof + axis] = column(angular, linear);
         }
         slot = node.parent_slot;

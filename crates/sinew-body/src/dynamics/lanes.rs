@@ -34,6 +34,11 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
+            fn larger(self, other: $type) -> $type {
+                self.fast_max(other)
+            }
+
+            #[inline(always)]
             fn abs(self) -> $type {
                 $type::abs(self)
             }
