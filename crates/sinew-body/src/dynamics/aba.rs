@@ -57,9 +57,9 @@ impl<S: Real> Articulated<S> {
     }
 }
 
-impl<S: Real> AddAssign<&Articulated<S>> for Articulated<S> {
+impl<S: Real> AddAssign for Articulated<S> {
     #[inline(always)]
-    fn add_assign(&mut self, other: &Articulated<S>) {
+    fn add_assign(&mut self, other: Articulated<S>) {
         for k in 0..3 {
             self.angular.columns[k] += other.angular.columns[k];
             self.coupling.columns[k] += other.coupling.columns[k];
@@ -123,7 +123,7 @@ pub fn aba<S: Real>(
             eliminations[dof] = Elimination { angular, linear, u, inverse_d, force };
         }
         if node.parent_slot != 0 {
-            articulated[node.parent_slot] += &inertia;
+            articulated[node.parent_slot] += inertia;
             wrenches[node.parent_slot] += &wrench;
         }
     }

@@ -32,6 +32,30 @@ impl<S: Real> Inverse<S> {
 /// [`rnea`](super::rnea()) with the state's accelerations as they stand, and [`crba`](super::crba()), sharing
 /// placement and inertias.
 ///
+/// A joint that follows a captured motion has a rotation, an angular velocity and an angular acceleration of its own,
+/// and says which directions of it are coordinates:
+///
+/// ```
+/// use glam::{DQuat, DVec3};
+/// use sinew_body::dynamics::*;
+/// let arm = Link { axes: 2, mass: 2.2, centre: V3::new(0.0, -0.16, 0.0),
+///                  inertia: Sym3::new(0.014, 0.004, 0.013, 0.0, 0.0, 0.0), ..Link::default() };
+/// let tree = Tree::new(vec![arm])?;
+/// let mut state = State::at_rest(&tree);
+/// let motion = &mut state.motions[0];
+/// motion.rotation = DQuat::from_rotation_z(0.4).into();
+/// motion.velocity = DVec3::new(0.1, 0.2, 1.5).into();
+/// motion.acceleration = DVec3::new(0.0, -0.3, 8.0).into();
+/// motion.set_axes(&[V3::new(1.0, 0.0, 0.0), V3::new(0.0, 0.0, 1.0)]);
+///
+/// let (mut workspace, mut out) = (Workspace::new(&tree), Inverse::new(&tree));
+/// inverse(&tree, &Base::at_rest(V3::new(0.0, -9.81, 0.0)), &state, &[], &mut workspace, &mut out);
+/// // Torque about the two axes is the joint's whole load seen along them; the third direction needs torque too.
+/// assert_eq!([out.tau[0], out.tau[1]], [out.loads[0].x(), out.loads[0].z()]);
+/// assert!((out.mass.at(1, 1) - (0.013 + 2.2 * 0.16 * 0.16)).abs() < 1e-12);
+/// # Ok::<(), TreeError>(())
+/// ```
+///
 /// # Panics
 /// If anything has been made for another tree, or a force acts on a link that is not there.
 pub fn inverse<S: Real>(
