@@ -124,7 +124,7 @@ pub fn aba<S: Real>(
         }
         if node.parent_slot != 0 {
             articulated[node.parent_slot] += inertia;
-            wrenches[node.parent_slot] += wrench;
+            wrenches[node.parent_slot] += &wrench;
         }
     }
     // Outwards. What the links' accelerations gain over q̈ = 0, (α, a) at the reference point, goes in the wrenches'

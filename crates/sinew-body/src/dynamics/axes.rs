@@ -43,8 +43,15 @@ impl<S: Real> Axes<S> {
 
     /// One axis as angular and linear vector.
     #[inline(always)]
-    pub fn axis(&self, axis: usize) -> (V3<S>, V3<S>) {
+    pub(super) fn axis(&self, axis: usize) -> (V3<S>, V3<S>) {
         let pick = |m: &M3<S>| V3::from_array(m.columns.map(|component| component.to_array()[axis]));
         (pick(&self.angular), pick(&self.linear))
+    }
+
+    /// The three axes, each as angular and linear vector.
+    #[inline(always)]
+    pub fn each(&self) -> [(V3<S>, V3<S>); 3] {
+        let ([a, b, c], [x, y, z]) = (self.angular.transpose().columns, self.linear.transpose().columns);
+        [(a, x), (b, y), (c, z)]
     }
 }

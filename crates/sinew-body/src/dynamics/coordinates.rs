@@ -72,6 +72,20 @@ pub enum CoordinatesError {
 
 /// The joints of a tree, one per link. Positions q and velocities q̇ stand in the order of the links; q has four
 /// numbers for a spherical joint where q̇ has three.
+///
+/// ```
+/// use sinew_body::dynamics::*;
+/// let slide = Link { freedom: Freedom::Slide, axes: 3, ..Link::default() };
+/// let body = Link { parent: Some(0), axes: 3, mass: 1.0, ..Link::default() };
+/// let tree = Tree::new(vec![slide, body])?;
+/// let free = vec![Joint::Slides(vec![Letter::X, Letter::Y, Letter::Z]), Joint::Spherical];
+/// let coordinates = Coordinates::new(&tree, free)?;
+/// assert_eq!((coordinates.positions(), tree.dofs()), (7, 6));
+/// let mut state = State::at_rest(&tree);
+/// coordinates.set(&tree, &[1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0], &[0.0; 6], &mut state);
+/// assert_eq!(state.motions[0].displacement, V3::new(1.0, 2.0, 3.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coordinates<S: Real> {
     joints: Vec<Joint<S>>,

@@ -5,7 +5,7 @@
 
 use super::kinematics::{place_base, place_still, world_axes, world_inertia};
 use super::tree::Node;
-use super::{Axes, Base, Inertia, MassMatrix, Real, State, Tree, Workspace, Wrench};
+use super::{Axes, Base, Inertia, MassMatrix, Real, State, Tree, V3, Workspace, Wrench};
 
 /// The joint-space inertia matrix. Of the base and the state only the pose is read.
 ///
@@ -32,8 +32,9 @@ pub fn crba<S: Real>(
         axes[index + 1] = world_axes(node, motion, placed);
     }
     for (index, node) in tree.nodes.iter().enumerate().rev() {
-        let composite = inertias[index + 1];
-        fill_rows(&tree.nodes, index, &composite, axes, mass);
+        let (inertias, composite) = inertias.split_at_mut(index + 1);
+        let composite = &composite[0];
+        fill_rows(&tree.nodes, index, composite, axes, mass);
         inertias[node.parent_slot] += composite;
     }
 }
@@ -51,18 +52,35 @@ pub(super) fn fill_rows<S: Real>(
     if node.axes == 0 {
         return;
     }
-    let momentum = composite.momentum(&axes[link + 1]);
-    for axis in 0..node.axes {
-        let (moment, force) = momentum.axis(axis);
-        let wrench = Wrench { moment, force };
-        let row = node.first_dof + axis;
-        let mut slot = link + 1;
-        while slot != 0 {
-            let above = &nodes[slot - 1];
-            if above.axes > 0 {
-                mass.set(row, above.first_dof, axes[slot].project(&wrench).to_array(), above.axes);
-            }
-            slot = above.parent_slot;
+    let [a, b, c] = composite.momentum(&axes[link + 1]).each();
+    // Spelled out: an index into the three would send them through memory.
+    fill_row(nodes, link, 0, a, axes, mass);
+    if node.axes > 1 {
+        fill_row(nodes, link, 1, b, axes, mass);
+    }
+    if node.axes > 2 {
+        fill_row(nodes, link, 2, c, axes, mass);
+    }
+}
+
+/// Writes the row of one axis, from the momentum of everything beyond per unit speed of it.
+#[inline(always)]
+fn fill_row<S: Real>(
+    nodes: &[Node<S>],
+    link: usize,
+    axis: usize,
+    (moment, force): (V3<S>, V3<S>),
+    axes: &[Axes<S>],
+    mass: &mut MassMatrix<S>,
+) {
+    let wrench = Wrench { moment, force };
+    let row = nodes[link].first_dof + axis;
+    let mut slot = link + 1;
+    while slot != 0 {
+        let above = &nodes[slot - 1];
+        if above.axes > 0 {
+            mass.set(row, above.first_dof, axes[slot].project(&wrench).to_array(), above.axes);
         }
+        slot = above.parent_slot;
     }
 }

@@ -65,9 +65,9 @@ impl<S: Real> Inertia<S> {
     }
 }
 
-impl<S: Real> AddAssign for Inertia<S> {
+impl<S: Real> AddAssign<&Inertia<S>> for Inertia<S> {
     #[inline(always)]
-    fn add_assign(&mut self, other: Inertia<S>) {
+    fn add_assign(&mut self, other: &Inertia<S>) {
         self.mass += other.mass;
         self.first += other.first;
         self.second += other.second;

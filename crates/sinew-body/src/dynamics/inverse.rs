@@ -32,6 +32,30 @@ impl<S: Real> Inverse<S> {
 /// [`rnea`](super::rnea()) with the state's accelerations as they stand, and [`crba`](super::crba()), sharing
 /// placement and inertias.
 ///
+/// A joint that follows a captured motion has a rotation, an angular velocity and an angular acceleration of its own,
+/// and says which directions of it are coordinates:
+///
+/// ```
+/// use glam::{DQuat, DVec3};
+/// use sinew_body::dynamics::*;
+/// let arm = Link { axes: 2, mass: 2.2, centre: V3::new(0.0, -0.16, 0.0),
+///                  inertia: Sym3::new(0.014, 0.004, 0.013, 0.0, 0.0, 0.0), ..Link::default() };
+/// let tree = Tree::new(vec![arm])?;
+/// let mut state = State::at_rest(&tree);
+/// let motion = &mut state.motions[0];
+/// motion.rotation = DQuat::from_rotation_z(0.4).into();
+/// motion.velocity = DVec3::new(0.1, 0.2, 1.5).into();
+/// motion.acceleration = DVec3::new(0.0, -0.3, 8.0).into();
+/// motion.set_axes(&[V3::new(1.0, 0.0, 0.0), V3::new(0.0, 0.0, 1.0)]);
+///
+/// let (mut workspace, mut out) = (Workspace::new(&tree), Inverse::new(&tree));
+/// inverse(&tree, &Base::at_rest(V3::new(0.0, -9.81, 0.0)), &state, &[], &mut workspace, &mut out);
+/// // Torque about the two axes is the joint's whole load seen along them; the third direction needs torque too.
+/// assert_eq!([out.tau[0], out.tau[1]], [out.loads[0].x(), out.loads[0].z()]);
+/// assert!((out.mass.at(1, 1) - (0.013 + 2.2 * 0.16 * 0.16)).abs() < 1e-12);
+/// # Ok::<(), TreeError>(())
+/// ```
+///
 /// # Panics
 /// If anything has been made for another tree, or a force acts on a link that is not there.
 pub fn inverse<S: Real>(
@@ -65,12 +89,14 @@ pub fn inverse<S: Real>(
     }
     take_forces(links.reference, forces, wrenches);
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate().rev() {
-        let wrench = wrenches[index + 1];
-        let load = joint_load(node, &links.placed[index + 1], &wrench);
+        // In place: copies of what has just been written stall in the store buffer.
+        let (wrenches, wrench) = wrenches.split_at_mut(index + 1);
+        let (inertias, composite) = inertias.split_at_mut(index + 1);
+        let (wrench, composite) = (&wrench[0], &composite[0]);
+        let load = joint_load(node, &links.placed[index + 1], wrench);
         out.loads[index] = load;
         put(motion.axes * load, node, &mut out.tau);
-        let composite = inertias[index + 1];
-        fill_rows(&tree.nodes, index, &composite, axes, &mut out.mass);
+        fill_rows(&tree.nodes, index, composite, axes, &mut out.mass);
         wrenches[node.parent_slot] += wrench;
         inertias[node.parent_slot] += composite;
     }

@@ -7,6 +7,19 @@ use super::{Links, Real, State, Tree, V3};
 /// (\[m/rad\] or 1), world axes. `point` is in the world \[m\]; the links must have been placed by
 /// [`kinematics`](super::kinematics()) or any other algorithm.
 ///
+/// ```
+/// use sinew_body::dynamics::*;
+/// let tree = Tree::new(vec![Link { axes: 1, mass: 1.0, ..Link::default() }])?;
+/// let mut state = State::at_rest(&tree);
+/// state.motions[0].set_axes(&[V3::new(0.0, 0.0, 1.0)]);
+/// let mut links = Links::new(&tree);
+/// kinematics(&tree, &Base::at_rest(V3::ZERO), &state, &mut links);
+/// let mut columns = [V3::ZERO];
+/// point_jacobian(&tree, &state, &links, 0, V3::new(0.0, -0.5, 0.0), &mut columns);
+/// assert_eq!(columns[0], V3::new(0.5, 0.0, 0.0));
+/// # Ok::<(), TreeError>(())
+/// ```
+///
 /// # Panics
 /// If anything has been made for another tree, or there is no such link.
 pub fn point_jacobian<S: Real>(
@@ -50,8 +63,7 @@ fn each_axis<S: Real>(
     while slot != 0 {
         let node = &tree.nodes[slot - 1];
         let axes = world_axes(node, &state.motions[slot - 1], &links.placed[slot]);
-        for axis in 0..node.axes {
-            let (angular, linear) = axes.axis(axis);
+        for (axis, (angular, linear)) in axes.each().into_iter().enumerate().take(node.axes) {
             columns[node.first_dof + axis] = column(angular, linear);
         }
         slot = node.parent_slot;

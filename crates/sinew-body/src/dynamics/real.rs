@@ -45,6 +45,9 @@ pub trait Real:
     /// 1/x.
     #[must_use]
     fn recip(self) -> Self;
+    /// The larger of two numbers, in each lane; of a number and a NaN, either.
+    #[must_use]
+    fn larger(self, other: Self) -> Self;
     /// |x|.
     #[must_use]
     fn abs(self) -> Self;
@@ -85,6 +88,11 @@ impl Real for f64 {
     #[inline(always)]
     fn recip(self) -> f64 {
         1.0 / self
+    }
+
+    #[inline(always)]
+    fn larger(self, other: f64) -> f64 {
+        if self > other { self } else { other }
     }
 
     #[inline(always)]

@@ -36,8 +36,9 @@ pub fn rnea<S: Real>(
     link_wrenches(tree, base, state, accelerations, forces, workspace);
     let Workspace { links, wrenches, .. } = workspace;
     for (index, (node, motion)) in tree.nodes.iter().zip(&state.motions).enumerate().rev() {
-        let wrench = wrenches[index + 1];
-        let along = motion.axes * joint_load(node, &links.placed[index + 1], &wrench);
+        let (wrenches, wrench) = wrenches.split_at_mut(index + 1);
+        let wrench = &wrench[0];
+        let along = motion.axes * joint_load(node, &links.placed[index + 1], wrench);
         put(along, node, tau);
         wrenches[node.parent_slot] += wrench;
     }

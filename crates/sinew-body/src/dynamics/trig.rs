@@ -68,13 +68,8 @@ pub(super) fn sin_cos<S: Real>(angle: S) -> (S, S) {
 /// If the three slices differ in length.
 pub(super) fn sin_cos_all<S: Real>(angles: &[S], sines: &mut [S], cosines: &mut [S]) {
     assert!(angles.len() == sines.len() && angles.len() == cosines.len(), "one sine and one cosine per angle");
-    let mut within = true;
-    for &angle in angles {
-        for lane in 0..S::LANES {
-            within &= angle.lane(lane).abs() <= REDUCIBLE;
-        }
-    }
-    if within {
+    let largest = angles.iter().fold(S::ZERO, |largest, angle| largest.larger(angle.abs()));
+    if (0..S::LANES).all(|lane| largest.lane(lane) <= REDUCIBLE) {
         for ((&angle, sine), cosine) in angles.iter().zip(sines).zip(cosines) {
             (*sine, *cosine) = sin_cos(angle);
         }

@@ -3,8 +3,6 @@
 use std::fmt::Debug;
 use std::ops::{Add, Neg, Sub};
 
-use super::Real;
-
 /// Storage and arithmetic of three numbers: the inside of [`V3`](super::V3).
 pub trait Triple<S>: Copy + Debug + Add<Output = Self> + Sub<Output = Self> + Neg<Output = Self> + 'static {
     /// (0, 0, 0).
@@ -19,61 +17,6 @@ pub trait Triple<S>: Copy + Debug + Add<Output = Self> + Sub<Output = Self> + Ne
     /// Vector product.
     #[must_use]
     fn cross(self, other: Self) -> Self;
-}
-
-/// Three numbers that are vectors of lanes already.
-#[derive(Clone, Copy, Debug)]
-pub struct Plain<S>([S; 3]);
-
-impl<S: Real> Triple<S> for Plain<S> {
-    const ZERO: Plain<S> = Plain([S::ZERO; 3]);
-
-    #[inline(always)]
-    fn new(x: S, y: S, z: S) -> Plain<S> {
-        Plain([x, y, z])
-    }
-
-    #[inline(always)]
-    fn to_array(self) -> [S; 3] {
-        self.0
-    }
-
-    #[inline(always)]
-    fn scaled(self, factor: S) -> Plain<S> {
-        Plain(self.0.map(|component| component * factor))
-    }
-
-    #[inline(always)]
-    fn cross(self, other: Plain<S>) -> Plain<S> {
-        let ([a, b, c], [x, y, z]) = (self.0, other.0);
-        Plain([b * z - c * y, c * x - a * z, a * y - b * x])
-    }
-}
-
-impl<S: Real> Add for Plain<S> {
-    type Output = Plain<S>;
-    #[inline(always)]
-    fn add(self, other: Plain<S>) -> Plain<S> {
-        let ([a, b, c], [x, y, z]) = (self.0, other.0);
-        Plain([a + x, b + y, c + z])
-    }
-}
-
-impl<S: Real> Sub for Plain<S> {
-    type Output = Plain<S>;
-    #[inline(always)]
-    fn sub(self, other: Plain<S>) -> Plain<S> {
-        let ([a, b, c], [x, y, z]) = (self.0, other.0);
-        Plain([a - x, b - y, c - z])
-    }
-}
-
-impl<S: Real> Neg for Plain<S> {
-    type Output = Plain<S>;
-    #[inline(always)]
-    fn neg(self) -> Plain<S> {
-        Plain(self.0.map(|component| -component))
-    }
 }
 
 /// Three `f64` and an unused fourth in one vector register: adding or scaling is one instruction.

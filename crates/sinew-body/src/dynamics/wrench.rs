@@ -26,9 +26,9 @@ impl<S: Real> Wrench<S> {
     }
 }
 
-impl<S: Real> AddAssign for Wrench<S> {
+impl<S: Real> AddAssign<&Wrench<S>> for Wrench<S> {
     #[inline(always)]
-    fn add_assign(&mut self, other: Wrench<S>) {
+    fn add_assign(&mut self, other: &Wrench<S>) {
         self.moment += other.moment;
         self.force += other.force;
     }
