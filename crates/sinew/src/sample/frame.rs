@@ -165,12 +165,11 @@ impl Frame {
             };
             let metres = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * self.scale;
             match part {
-                // The belly.
-                Part::Spine => push(metres(-0.035, 0.02, 0.0), metres(0.035, 0.02, 0.0), 0.098 * self.scale),
-                // The ribs taper to the shoulders.
+                Part::Spine => {}
                 Part::Chest => {
-                    push(metres(-0.045, 0.02, 0.0), metres(0.045, 0.02, 0.0), 0.108 * self.scale);
-                    push(metres(-0.060, 0.09, 0.0), metres(0.060, 0.09, 0.0), 0.098 * self.scale);
+                    let lower = DVec3::Y * (link.offset.y - SPINE_HEIGHTS_M[1] * self.scale);
+                    let radius = 0.5 * (link.shape.from_radius_m + link.shape.to_radius_m);
+                    push(link.shape.from + lower, link.shape.to + lower, radius);
                 }
                 Part::LeftFoot | Part::RightFoot => {
                     let foot = &self.foot;
@@ -180,10 +179,17 @@ impl Frame {
                 Part::LeftToes | Part::RightToes => {
                     push(metres(0.0, -0.001, 0.0), metres(0.0, -0.003, 0.045), 0.019 * self.scale);
                 }
+                Part::Head => push(metres(0.0, 0.078, 0.008), metres(0.0, 0.142, 0.008), 0.088 * self.scale),
                 _ => {
                     let turn = joint_from_node(part);
                     let shape = &link.shape;
-                    let radius = 0.5 * (shape.from_radius_m + shape.to_radius_m);
+                    // Closer to the radius at knee and elbow, where two capsules meet.
+                    let share = match part {
+                        Part::LeftUpperLeg | Part::RightUpperLeg => 0.65,
+                        Part::LeftLowerLeg | Part::RightLowerLeg => 0.35,
+                        _ => 0.5,
+                    };
+                    let radius = shape.from_radius_m + share * (shape.to_radius_m - shape.from_radius_m);
                     push(turn * shape.from, turn * shape.to, radius);
                 }
             }

@@ -16,13 +16,17 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{LegPose, Node, exp, log, solve_leg};
 
 /// Phase at which the left heel lands: feet land a few hundredths of a stride after they are farthest ahead.
-const LANDS: f64 = 0.03;
+const LANDS: f64 = 0.055;
 /// Phase at which the sole is flat.
-const FLAT: f64 = 0.12;
+const FLAT: f64 = 0.15;
 /// Phases between which the heel begins to rise.
 const RISES: [f64; 2] = [0.30, 0.48];
-/// Phase at which the ball of the foot leaves the floor; the other foot has landed at 0.53.
-const LEAVES: f64 = 0.63;
+/// Phase at which the ball of the foot leaves the floor; the other foot has landed at 0.555.
+const LEAVES: f64 = 0.62;
+/// Phase at which the toes, bent by the push, are relaxed, and their bend then \[rad\].
+const RELAXED: (f64, f64) = (0.82, -0.12);
+/// A foot leaves for its measured path, and comes from it to its place, within this \[strides\].
+const FADE: f64 = 0.2;
 /// Phases looked at for the path of the hips.
 const SAMPLES: usize = 128;
 /// How far the foot turns out while it stands \[rad\]: 6°, usual for adults.
@@ -32,7 +36,7 @@ const TOES_UP: f64 = 0.4;
 /// Least bend of a knee that a leg is left with \[rad\].
 const LEAST_FLEXION_RAD: f64 = 0.07;
 /// Least height of a swinging foot's lowest point above the floor in mid swing, in a 1.70 m body \[m\].
-const CLEARANCE_M: f64 = 0.012;
+const CLEARANCE_M: f64 = 0.010;
 /// Step of difference quotients \[strides\].
 const STEP: f64 = 1e-3;
 
@@ -72,7 +76,6 @@ pub(super) struct ShownLeg {
     pub shank: DQuat,
     pub foot: DQuat,
     pub toes: DQuat,
-    pub hip: DVec3,
     pub ankle: DVec3,
 }
 
@@ -125,7 +128,7 @@ fn roll(frame: &Frame, phase: f64, gain: f64) -> f64 {
     let forward = measured_leg(frame, phase, gain).foot * DVec3::Z;
     let down = libm::atan2(-forward.y, (forward.x * forward.x + forward.z * forward.z).sqrt());
     if phase < 0.5 * (FLAT + RISES[0]) {
-        down * (1.0 - smooth_step(LANDS - 0.02, FLAT, phase))
+        down * (1.0 - smooth_step(LANDS, FLAT, phase))
     } else {
         down * smooth_step(RISES[0], RISES[1], phase)
     }
@@ -152,7 +155,7 @@ where
     V: Copy + std::ops::Add<Output = V> + std::ops::Sub<Output = V> + std::ops::Mul<f64, Output = V>,
 {
     let (before, here, after) = (value(at - STEP), value(at), value(at + STEP));
-    [here, (after - before) * (0.5 / STEP), (after - here - here + before) * (1.0 / (STEP * STEP))]
+    [here, (after - before) * (0.5 / STEP), here * 0.0]
 }
 
 /// The hips' path that the standing feet dictate: stride \[m\] and the series beside the even progress.
@@ -277,8 +280,7 @@ impl Gait {
     fn overreach(&self) -> f64 {
         let length = |node: Node| self.frame.body.link(node).offset.length();
         let (thigh, shank) = (length(Node::LeftLowerLeg), length(Node::LeftFoot));
-        let longest_squared =
-            thigh * thigh + shank * shank + 2.0 * thigh * shank * libm::cos(LEAST_FLEXION_RAD);
+        let longest_squared = thigh * thigh + shank * shank + 2.0 * thigh * shank * libm::cos(LEAST_FLEXION_RAD);
         (0..=SAMPLES)
             .map(|index| {
                 let phase = LANDS + (LEAVES - LANDS) * index as f64 / SAMPLES as f64;
@@ -302,10 +304,17 @@ impl Gait {
         } else {
             let span = 1.0 + LANDS - LEAVES;
             let t = (local - LEAVES) / span;
-            let between = |ends: &[Jet<DVec3>; 2]| quintic(&ends[0], &ends[1], span, t);
+            let between = |ends: &[Jet<DVec3>; 2]| {
+                let none = [DVec3::ZERO; 3];
+                if local < LEAVES + FADE {
+                    quintic(&ends[0], &none, FADE, (local - LEAVES) / FADE)
+                } else {
+                    quintic(&none, &ends[1], FADE, ((local - 1.0 - LANDS) / FADE + 1.0).max(0.0))
+                }
+            };
             let ankle = hips + leg.ankle + between(&self.swing[0]) + DVec3::Y * (self.lift_m * lift(t));
             let foot = exp(between(&self.swing[1])) * leg.foot;
-            (ankle, foot, quintic(&self.toes[0], &self.toes[1], span, t))
+            (ankle, foot, self.swinging_toes(local))
         };
         let input = LegPose {
             hip: hips + leg.hip,
@@ -320,9 +329,18 @@ impl Gait {
             shank: shank_turn * leg.shank,
             foot,
             toes: exp(DVec3::X * bend),
-            hip: input.hip + forward,
             ankle: ankle + forward,
         }
+    }
+
+    fn swinging_toes(&self, phase: f64) -> f64 {
+        let relaxed = [RELAXED.1, 0.0, 0.0];
+        let (start, end, from, to) = if phase < RELAXED.0 {
+            (&self.toes[0], &relaxed, LEAVES, RELAXED.0)
+        } else {
+            (&relaxed, &self.toes[1], RELAXED.0, 1.0 + LANDS)
+        };
+        quintic(start, end, to - from, (phase - from) / (to - from))
     }
 
     /// Height of the left foot's lowest point above the floor \[m\].
@@ -343,7 +361,7 @@ impl Gait {
                 let t = index as f64 / SAMPLES as f64;
                 let needed = CLEARANCE_M * self.frame.scale * lift(t) - self.left_clearance(LEAVES + span * t);
                 // Close to the floor's own moments no lift helps; the foot is above it there by its speed.
-                if lift(t) > 0.02 { needed / lift(t) } else { 0.0 }
+                if lift(t) > 0.2 { needed / lift(t) } else { 0.0 }
             })
             .fold(0.0, f64::max)
     }
