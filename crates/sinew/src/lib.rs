@@ -24,3 +24,8 @@ pub mod sample {
     /// temp
     pub static WALK_BVH: &[u8] = b"";
 }
+
+/// The README's Rust examples compile.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
