@@ -21,7 +21,8 @@ pub fn run() -> Result<(), String> {
     let page = fs::read_to_string(&page).map_err(|error| format!("{}: {error}", page.display()))?;
     let lines = shell_lines(&page);
     let first = lines.first().ok_or("README.md has no shell block")?;
-    let arguments = first.strip_prefix("cargo run ").ok_or_else(|| format!("README.md's first command is {first:?}"))?;
+    let arguments =
+        first.strip_prefix("cargo run ").ok_or_else(|| format!("README.md's first command is {first:?}"))?;
     let folder = Folder::new()?;
     run_here(&folder.0, &arguments.split_whitespace().collect::<Vec<_>>())?;
     for name in FILES {

@@ -119,7 +119,10 @@ fn no_file_is_larger_than_a_megabyte() {
     for file in files() {
         let bytes = fs::metadata(repository::root().join(&file)).unwrap().len();
         let allowed = LARGE.iter().any(|(path, _)| *path == file);
-        assert!(allowed || bytes <= 1 << 20, "{file} has {bytes} bytes; make it smaller, or name it in LARGE with a reason");
+        assert!(
+            allowed || bytes <= 1 << 20,
+            "{file} has {bytes} bytes; make it smaller, or name it in LARGE with a reason"
+        );
     }
 }
 
