@@ -293,7 +293,7 @@ impl Response {
     }
 
     fn widen_limits(&mut self, wanted: &Pose) {
-        for node in Node::ALL.into_iter().take(UPPER_NODES).skip(1) {
+        for node in Node::ALL.into_iter().skip(1) {
             let local = wanted.local(node);
             let limit = &mut self.body.link_mut(node).limit;
             if !limit.contains(local) {
