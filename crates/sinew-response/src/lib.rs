@@ -35,6 +35,7 @@ mod basis;
 mod force;
 mod hips;
 mod inertia;
+mod live;
 mod motion;
 mod objective;
 mod push;
@@ -48,6 +49,7 @@ mod upper_body;
 
 pub use basis::{Basis, BasisError};
 pub use force::PointForce;
+pub use live::Live;
 pub use motion::Motion;
 pub use push::{GroundJerk, Push, PushFrame};
 pub use response::{Report, Response};

@@ -242,8 +242,9 @@ impl Response {
         state.torque_before = Some(torque_now);
         state.before = state.now;
         state.now = wanted;
-        state.output = posed(&self.body, &wanted, &to_vectors(&state.deviation), &shown, ground_next);
-        state.output
+        let deviation = self.deviation();
+        self.state.output = posed(&self.body, &wanted, &deviation);
+        self.state.output
     }
 
     /// How far the pose given out last is from the wanted one, for [`Overlay`](sinew_body::humanoid::Overlay). Shifts are in
@@ -279,7 +280,7 @@ impl Response {
         let input = steps(&self.state.before, &self.state.now);
         self.state.step = std::array::from_fn(|node| exp(turns[node]).conjugate() * input[node] + growth[node]);
         self.state.deviation = *deviation;
-        self.state.output = posed(&self.body, &self.state.now, &turns, &HipsDeviation::default(), DVec3::ZERO);
+        self.state.output = posed(&self.body, &self.state.now, &Deviation { turns, ..Deviation::NONE });
         self.state.torque_before = None;
     }
 
@@ -350,13 +351,14 @@ fn reined_in(limit: &Limit, local: DQuat, deviation: DVec3) -> DVec3 {
     deviation * inside
 }
 
-/// The wanted pose with the deviation on it, feet where the wanted pose has them.
-fn posed(body: &Body, wanted: &Pose, turns: &[DVec3; UPPER_NODES], hips: &HipsDeviation, ground: DVec3) -> Pose {
+/// The wanted pose with a deviation on it, feet where the wanted pose has them.
+pub(crate) fn posed(body: &Body, wanted: &Pose, deviation: &Deviation) -> Pose {
+    let Deviation { hips_shift, hips_turn, ground_shift, turns } = *deviation;
     let mut pose = *wanted;
-    pose.hips_position += hips.shift + ground;
-    pose.world[0] = exp(hips.turn) * wanted.world[0];
+    pose.hips_position += hips_shift + ground_shift;
+    pose.world[0] = exp(hips_turn) * wanted.world[0];
     let mut turned = [false; UPPER_NODES];
-    turned[0] = hips.turn != DVec3::ZERO;
+    turned[0] = hips_turn != DVec3::ZERO;
     for node in Node::ALL.into_iter().take(UPPER_NODES).skip(1) {
         let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
         turned[at] = turned[parent] || turns[at] != DVec3::ZERO;
@@ -364,7 +366,7 @@ fn posed(body: &Body, wanted: &Pose, turns: &[DVec3; UPPER_NODES], hips: &HipsDe
             pose.world[at] = (pose.world[parent] * (wanted.local(node) * exp(turns[at]))).normalize();
         }
     }
-    if hips.turn != DVec3::ZERO || hips.shift != DVec3::ZERO {
+    if hips_turn != DVec3::ZERO || hips_shift != DVec3::ZERO {
         let positions = wanted.positions(body);
         for (upper, lower, foot) in [
             (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
@@ -372,7 +374,7 @@ fn posed(body: &Body, wanted: &Pose, turns: &[DVec3; UPPER_NODES], hips: &HipsDe
         ] {
             let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
             let leg = LegPose { hip, knee, ankle, knee_axis: wanted.world[lower.index()] * DVec3::X };
-            let new_hip = positions[0] + hips.shift + exp(hips.turn) * (hip - positions[0]);
+            let new_hip = positions[0] + hips_shift + exp(hips_turn) * (hip - positions[0]);
             let (thigh, shank) = solve_leg(&leg, new_hip, ankle);
             pose.world[upper.index()] = (thigh * wanted.world[upper.index()]).normalize();
             pose.world[lower.index()] = (shank * wanted.world[lower.index()]).normalize();

@@ -21,3 +21,8 @@ pub mod figure;
 pub mod inspect;
 pub mod respond;
 pub mod sample;
+
+/// The README's Rust examples compile.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
