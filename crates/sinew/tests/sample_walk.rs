@@ -12,7 +12,7 @@ fn walks() -> Vec<Walk> {
         (0.70, 80.0, 1.70),
         (0.90, 109.0, 1.70),
         (1.75, 118.0, 1.70),
-        (1.10, 70.0, 1.70),
+        (1.00, 70.0, 1.70),
         (0.80, 130.0, 1.10),
         (1.50, 105.0, 2.10),
     ]
@@ -148,23 +148,26 @@ fn every_stride_repeats_the_first_bit_for_bit() {
 
 #[test]
 fn nothing_pops() {
-    // A knee that swings by 60° and back in 0.4 s turns with up to 2π²/(0.4 s)² · 30° = 65 rad/s² if it does so as a cosine;
-    // where a foot lands or leaves it does so two to three times as hard. A jump of 5° in one frame adds 300 rad/s².
-    const BOUND: f64 = 200.0;
-    let walk = Walk::default();
-    let clip = walk.clip().unwrap();
-    let (fps, joints) = (clip.fps(), clip.skeleton().joints());
-    let mut largest = (0.0, 0, 0);
-    for joint in 0..joints.len() {
-        for frame in 1..=walk.frames_per_stride() {
-            let speed = |at: usize| log(clip.rotation(at, joint).conjugate() * clip.rotation(at + 1, joint)) * fps;
-            let acceleration = (speed(frame) - speed(frame - 1)).length() * fps;
-            if acceleration > largest.0 {
-                largest = (acceleration, joint, frame);
+    for (index, walk) in walks().into_iter().enumerate() {
+        // A knee that bends by 60° and back within 0.4 s needs 2π²/(0.4 s)² · 30° = 65 rad/s² if it does so as a cosine; where
+        // a foot lands or leaves, up to three times that. Longer, faster strides stretch the leg and leave it harder. A
+        // jump of 5° in one frame would add 5° · 60² / s² = 314 rad/s² to either.
+        let bound = if index == 0 { 200.0 } else { 460.0 };
+        let clip = walk.clip().unwrap();
+        let (fps, joints) = (clip.fps(), clip.skeleton().joints());
+        let mut largest = (0.0, 0, 0);
+        for joint in 0..joints.len() {
+            for frame in 1..=walk.frames_per_stride() {
+                let speed = |at: usize| log(clip.rotation(at, joint).conjugate() * clip.rotation(at + 1, joint)) * fps;
+                let acceleration = (speed(frame) - speed(frame - 1)).length() * fps;
+                if acceleration > largest.0 {
+                    largest = (acceleration, joint, frame);
+                }
             }
         }
+        let (acceleration, joint, frame) = largest;
+        assert!(acceleration < bound, "{walk:?}: {} with {acceleration:.0} rad/s² in {frame}", joints[joint].name);
     }
-    assert!(largest.0 < BOUND, "{} turns with {:.0} rad/s² in frame {}", joints[largest.1].name, largest.0, largest.2);
 }
 
 #[test]
