@@ -30,7 +30,7 @@ fn the_shipped_files_are_what_the_generator_makes_byte_for_byte() {
 }
 
 fn in_metres(parsed: &Parsed) -> (Clip, Humanoid, f64) {
-    let humanoid = Humanoid::of(&parsed.clip, &[]).unwrap();
+    let humanoid = Humanoid::of(&parsed.clip, &[]).expect("the sample is a body");
     let guess = guess_space(&parsed.clip, &humanoid, parsed.unit_m, parsed.world_from_source);
     let clip = guess.space.clip_to_world(&parsed.clip);
     (clip, humanoid, guess.stature_m)

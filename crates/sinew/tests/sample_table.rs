@@ -20,7 +20,7 @@ fn mocap() -> Option<PathBuf> {
 fn rows(text: &str) -> Vec<Vec<f64>> {
     text.lines()
         .filter_map(|line| line.trim().strip_prefix('[')?.strip_suffix("],"))
-        .map(|numbers| numbers.split(", ").map(|number| number.parse().unwrap()).collect())
+        .map(|numbers| numbers.split(", ").map(|number| number.parse().expect("a number")).collect())
         .collect()
 }
 

@@ -41,7 +41,7 @@ fn foot(clip: &Clip, world: &[Transform], side: Side, stature_m: f64) -> Points 
         Side::Left => format!("left{part}"),
         Side::Right => format!("right{part}"),
     };
-    let joint = |part: &str| clip.skeleton().find(&name(part)).unwrap();
+    let joint = |part: &str| clip.skeleton().find(&name(part)).expect("the sample has every part");
     let (foot, toes) = (joint("Foot"), joint("Toes"));
     // The heel of the body's capsule: 3.2 cm behind and 4.7 cm below the ankle of a 1.686 m tree, its radius 2.8 cm.
     let scale = stature_m / 1.686;
@@ -52,7 +52,7 @@ fn foot(clip: &Clip, world: &[Transform], side: Side, stature_m: f64) -> Points 
         heel,
         ball,
         sole_m: ball.y - 0.022 * scale,
-        tip: world[toes].point(clip.skeleton().joints()[toes].tip.unwrap()),
+        tip: world[toes].point(clip.skeleton().joints()[toes].tip.expect("toes have a tip")),
     }
 }
 
