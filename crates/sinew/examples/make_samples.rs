@@ -7,8 +7,11 @@ use sinew_motion::formats::{Format, WriteJob, bvh, gltf};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// The files by name: the same in every run and on every machine.
-pub fn files() -> Result<[(&'static str, Vec<u8>); 2], Box<dyn Error>> {
+/// A name and what the file holds.
+pub type File = (&'static str, Vec<u8>);
+
+/// Both files: the same in every run and on every machine.
+pub fn files() -> Result<[File; 2], Box<dyn Error>> {
     let walk = Walk::default();
     let clip = walk.clip()?;
     let job = WriteJob { clip: &clip, source: None };

@@ -1,5 +1,6 @@
 //! Measures the mean walk of the normal walks in the shared motion-capture set and prints the table that
-//! `src/sample/walk_table.rs` holds: `cargo run -p sinew --example measure_walk [> walk_table_body.rs]`.
+//! `src/sample/walk_table.rs` holds: `cargo run -p sinew --example measure_walk > rows.txt`. How well it went is told on
+//! standard error.
 //!
 //! From each clip one gait cycle, the one whose ends agree best. Its poses become those of the 18-body humanoid, its
 //! local rotations rotation vectors in anatomical frames, at 64 phases from the moment when the left foot is farthest
@@ -15,6 +16,7 @@ use sinew_body::humanoid::{Node, Person, Pose, Reduction, exp, log};
 use sinew_motion::formats::{Parsed, amc, bvh};
 use sinew_motion::{Humanoid, Limits, Part, Side, contacts, find_cycle, guess_space, heading, stature};
 use std::error::Error;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// The normal walks, one clip per person. Looked at and left out: 12_01, whose left foot and arms are turned by 26 and 38
@@ -48,58 +50,68 @@ struct Measured {
     stance: Option<(f64, f64)>,
 }
 
+/// The rows of the table, from the motion-capture folder.
+pub fn table(folder: &Path) -> Result<String, Box<dyn Error>> {
+    let mut people = Vec::new();
+    for name in CLIPS {
+        let person = measure(&folder.join(name)).map_err(|error| format!("{name}: {error}"))?;
+        eprintln!("{name}: {}", person.in_words());
+        people.push(person);
+    }
+    eprintln!("{}", means(&people));
+    let mean = symmetric_mean(&people);
+    let mut table = String::new();
+    for node in Node::ALL.into_iter().filter(|node| !node.is_right()) {
+        writeln!(table, "    // {}\n    [", node.part())?;
+        for axis in 0..3 {
+            let degrees = |row: &[DVec3; Node::COUNT]| row[node.index()].to_array()[axis].to_degrees();
+            let values: Vec<f64> = mean.iter().map(degrees).collect();
+            let (series, residual) = fit(&values);
+            // Adding 0 after rounding turns -0 into 0.
+            let numbers: Vec<String> =
+                series.iter().map(|value| format!("{:.3}", (value * 1000.0).round() / 1000.0 + 0.0)).collect();
+            writeln!(table, "        [{}],", numbers.join(", "))?;
+            // How far each person differs from the mean, root mean square over the cycle.
+            let spread = people.iter().map(|person| {
+                let own = symmetric_mean(std::slice::from_ref(person));
+                let squares = own.iter().zip(&values).map(|(row, mean)| (degrees(row) - mean) * (degrees(row) - mean));
+                format!("{:.0}", (squares.sum::<f64>() / PHASES as f64).sqrt())
+            });
+            eprintln!(
+                "{} {}: the series leaves {residual:.2}°, people differ by {}°",
+                node.part(),
+                ["x", "y", "z"][axis],
+                spread.collect::<Vec<_>>().join(" ")
+            );
+        }
+        writeln!(table, "    ],")?;
+    }
+    Ok(table)
+}
+
+#[allow(dead_code, reason = "the test of the table uses the rest of this file")]
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::var_os("SINEW_SHARED")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from)
         .join("mocap");
-    let mut people = Vec::new();
-    for name in CLIPS {
-        let person = measure(&folder.join(name)).map_err(|error| format!("{name}: {error}"))?;
-        let speed = person.stride_m / person.period_secs;
-        eprintln!(
-            "{name}: stature {:.3} m, {speed:.3} m/s, {:.1} steps/min, stride {:.3} statures, stance {:.3?}",
-            person.stature_m,
-            120.0 / person.period_secs,
-            person.stride_m / person.stature_m,
-            person.stance,
-        );
-        people.push(person);
-    }
-    print_means(&people);
-    let mean = symmetric_mean(&people);
-    for node in Node::ALL {
-        if node.is_right() {
-            continue;
-        }
-        println!("    // {}", node.part());
-        println!("    [");
-        for axis in 0..3 {
-            let values: Vec<f64> = mean.iter().map(|row| row[node.index()].to_array()[axis].to_degrees()).collect();
-            let (series, residual) = fit(&values);
-            let numbers: Vec<String> = series.iter().map(|value| format!("{value:.3}")).collect();
-            println!("        [{}],", numbers.join(", "));
-            if residual > 0.5 {
-                eprintln!("{} {}: {residual:.2} degrees rms are beyond the series", node.part(), ["x", "y", "z"][axis]);
-            }
-            // How far people differ, root mean square over the cycle [deg].
-            let spread = people
-                .iter()
-                .map(|person| {
-                    let own = symmetric_mean(std::slice::from_ref(person));
-                    own.iter()
-                        .zip(&mean)
-                        .map(|(a, b)| (a[node.index()] - b[node.index()]).to_array()[axis].to_degrees().powi(2))
-                        .sum::<f64>()
-                        / PHASES as f64
-                })
-                .map(|square| format!("{:.0}", square.sqrt()))
-                .collect::<Vec<_>>()
-                .join(" ");
-            eprintln!("{} {}: people differ by {spread} degrees", node.part(), ["x", "y", "z"][axis]);
-        }
-        println!("    ],");
-    }
+    let table = table(&folder)?;
+    // Four midline nodes and seven of the left side.
+    assert_eq!(table.matches("    // ").count(), 11, "every node should have its rows");
+    print!("{table}");
     Ok(())
+}
+
+impl Measured {
+    fn in_words(&self) -> String {
+        format!(
+            "stature {:.3} m, {:.3} m/s, {:.1} steps/min, stride {:.3} statures, stance {:.3?}",
+            self.stature_m,
+            self.stride_m / self.period_secs,
+            120.0 / self.period_secs,
+            self.stride_m / self.stature_m,
+            self.stance
+        )
+    }
 }
 
 fn read(path: &Path) -> Result<Parsed, Box<dyn Error>> {
@@ -247,7 +259,8 @@ fn fit(values: &[f64]) -> ([f64; 1 + 2 * ORDER], f64) {
     (series, (left / count).sqrt())
 }
 
-fn print_means(people: &[Measured]) {
+/// How these people walked in the mean.
+fn means(people: &[Measured]) -> String {
     let mean = |value: &dyn Fn(&Measured) -> f64| people.iter().map(value).sum::<f64>() / people.len() as f64;
     let reach = |axis: usize| {
         mean(&|person: &Measured| {
@@ -257,21 +270,16 @@ fn print_means(people: &[Measured]) {
     };
     let stances: Vec<(f64, f64)> = people.iter().filter_map(|person| person.stance).collect();
     let count = stances.len() as f64;
-    println!(
-        "    // period {:.4} s, stride {:.4} statures, speed {:.4} statures/s",
+    format!(
+        "period {:.4} s, stride {:.4} statures, speed {:.4} statures/s; hips' whole range in statures: sideways {:.4}, up \
+         {:.4}, forward {:.4}; left stance from phase {:.3} to {:.3}",
         mean(&|p| p.period_secs),
         mean(&|p| p.stride_m / p.stature_m),
-        mean(&|p| p.stride_m / p.stature_m / p.period_secs)
-    );
-    println!(
-        "    // hips' whole range in statures: sideways {:.4}, up {:.4}, forward {:.4}",
+        mean(&|p| p.stride_m / p.stature_m / p.period_secs),
         reach(0),
         reach(1),
-        reach(2)
-    );
-    println!(
-        "    // left stance from phase {:.3} to {:.3}",
-        stances.iter().map(|s| s.0).sum::<f64>() / count,
-        stances.iter().map(|s| s.1).sum::<f64>() / count
-    );
+        reach(2),
+        stances.iter().map(|stance| stance.0).sum::<f64>() / count,
+        stances.iter().map(|stance| stance.1).sum::<f64>() / count
+    )
 }

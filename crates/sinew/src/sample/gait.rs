@@ -21,8 +21,11 @@ const LANDS: f64 = 0.055;
 const FLAT: f64 = 0.15;
 /// Phases between which the heel begins to rise.
 const RISES: [f64; 2] = [0.30, 0.48];
-/// Phase at which the ball of the foot leaves the floor; the other foot has landed at 0.555.
-const LEAVES: f64 = 0.62;
+/// Phase at which the tip of the toes leaves the floor; the other foot has landed at 0.555.
+const LEAVES: f64 = 0.63;
+/// Phases between which the foot would roll over the tip of its toes, and how far \[rad\], if it did not leave before: the
+/// measured feet rise by 3 cm more than a foot that turns about its ball.
+const OVER_TOES: ([f64; 2], f64) = ([0.51, 0.70], 0.6);
 /// Phase at which the toes, bent by the push, are relaxed, and their bend then \[rad\].
 const RELAXED: (f64, f64) = (0.82, -0.12);
 /// A foot leaves for its measured path, and comes from it to its place, within this \[strides\].
@@ -33,8 +36,9 @@ const SAMPLES: usize = 128;
 const TOE_OUT_RAD: f64 = 0.105;
 /// The toes are bent up by this share of the foot's own angle when it lands on the heel.
 const TOES_UP: f64 = 0.4;
-/// Least bend of a knee that a leg is left with \[rad\].
-const LEAST_FLEXION_RAD: f64 = 0.07;
+/// Least bend of a knee that a leg is left with \[rad\]: 9°. The mean walk's own least is 12°, and the straighter a knee, the
+/// harder it turns for a millimetre that its ankle is moved.
+const LEAST_FLEXION_RAD: f64 = 0.16;
 /// Least height of a swinging foot's lowest point above the floor in mid swing, in a 1.70 m body \[m\].
 const CLEARANCE_M: f64 = 0.010;
 /// Step of difference quotients \[strides\].
@@ -123,25 +127,45 @@ fn measured_leg(frame: &Frame, phase: f64, gain: f64) -> Leg {
     Leg { thigh, shank, foot, hip, knee, ankle: knee + shank * offset(Node::LeftFoot) }
 }
 
-/// How far the left foot points down \[rad\] while it stands.
-fn roll(frame: &Frame, phase: f64, gain: f64) -> f64 {
+/// How a foot stands: how far it points down, and how far its toes do \[rad\].
+#[derive(Clone, Copy)]
+struct Roll {
+    foot: f64,
+    /// While the foot stands on its heel, they are bent up and this is not used.
+    toes: f64,
+}
+
+impl Roll {
+    /// Turn of the toes against the foot.
+    fn bend(self) -> f64 {
+        if self.foot < 0.0 { TOES_UP * self.foot } else { self.toes - self.foot }
+    }
+}
+
+/// How the left foot rolls while it stands.
+fn roll(frame: &Frame, phase: f64, gain: f64) -> Roll {
     let forward = measured_leg(frame, phase, gain).foot * DVec3::Z;
     let down = libm::atan2(-forward.y, (forward.x * forward.x + forward.z * forward.z).sqrt());
+    let toes = OVER_TOES.1 * smooth_step(OVER_TOES.0[0], OVER_TOES.0[1], phase);
     if phase < 0.5 * (FLAT + RISES[0]) {
-        down * (1.0 - smooth_step(LANDS, FLAT, phase))
+        Roll { foot: down * (1.0 - smooth_step(LANDS, FLAT, phase)), toes }
     } else {
-        down * smooth_step(RISES[0], RISES[1], phase)
+        Roll { foot: down * smooth_step(RISES[0], RISES[1], phase), toes }
     }
 }
 
 /// The standing left foot's turn, and its ankle relative to where it is while flat.
-fn standing(frame: &Frame, down: f64) -> (DQuat, DVec3) {
+fn standing(frame: &Frame, roll: Roll) -> (DQuat, DVec3) {
     let heading = exp(DVec3::Y * TOE_OUT_RAD);
-    let turn = heading * exp(DVec3::X * down);
+    let turn = heading * exp(DVec3::X * roll.foot);
     let foot = &frame.foot;
-    let (pivot, rolled) =
-        if down < 0.0 { (foot.heel, DVec3::Z * (foot.heel_radius_m * down)) } else { (foot.ball, DVec3::ZERO) };
-    (turn, heading * (pivot + rolled) - turn * pivot)
+    // The heel rolls as a ball does; then the toes turn about their tip, and the foot about its ball.
+    let (pivot, moved) = if roll.foot < 0.0 {
+        (foot.heel, DVec3::Z * (foot.heel_radius_m * roll.foot))
+    } else {
+        (foot.ball, foot.toe_tip - exp(DVec3::X * roll.toes) * foot.toe_tip)
+    };
+    (turn, heading * (pivot + moved) - turn * pivot)
 }
 
 /// How much of the weight the left foot carries.
@@ -220,14 +244,12 @@ impl Gait {
             lift_m: 0.0,
         };
         gait.plant = gait.find_plant();
-        gait.path[1][0] -= gait.overreach();
-        let swing = [LEAVES, LANDS].map(|phase| {
-            let ankle = jet(|phase| gait.standing_ankle(phase) - gait.measured_ankle(phase), phase);
-            let turn = jet(|phase| gait.standing_error(phase), phase);
-            (ankle, turn)
-        });
-        gait.swing = [[swing[0].0, swing[1].0], [swing[0].1, swing[1].1]];
-        gait.toes = [LEAVES, LANDS].map(|phase| jet(|phase| gait.standing_toes(phase), phase));
+        // Lower hips change the way of the swinging foot a little, so it is looked at again.
+        for _ in 0..4 {
+            gait.meet_the_floor();
+            gait.path[1][0] -= gait.overreach();
+        }
+        gait.meet_the_floor();
         gait.lift_m = gait.needed_lift();
         gait
     }
@@ -259,8 +281,7 @@ impl Gait {
     }
 
     fn standing_toes(&self, phase: f64) -> f64 {
-        let down = roll(&self.frame, phase, self.gain);
-        if down > 0.0 { -down } else { TOES_UP * down }
+        roll(&self.frame, phase, self.gain).bend()
     }
 
     /// Where the left foot stands: where the measured leg holds it in the mean over its stance.
@@ -276,16 +297,27 @@ impl Gait {
         DVec3::new(mean.x, self.frame.foot.ankle_m, mean.z)
     }
 
-    /// How far the hips must come down for the standing leg to reach the floor with a bent knee \[m\].
+    /// Joins the swing to the stance at both of its ends.
+    fn meet_the_floor(&mut self) {
+        let ends = [LEAVES, LANDS].map(|phase| {
+            let ankle = jet(|phase| self.standing_ankle(phase) - self.measured_ankle(phase), phase);
+            let turn = jet(|phase| self.standing_error(phase), phase);
+            (ankle, turn)
+        });
+        self.swing = [[ends[0].0, ends[1].0], [ends[0].1, ends[1].1]];
+        self.toes = [LEAVES, LANDS].map(|phase| jet(|phase| self.standing_toes(phase), phase));
+    }
+
+    /// How far the hips must come down for the left leg to reach its ankle with a bent knee \[m\].
     fn overreach(&self) -> f64 {
         let length = |node: Node| self.frame.body.link(node).offset.length();
         let (thigh, shank) = (length(Node::LeftLowerLeg), length(Node::LeftFoot));
         let longest_squared = thigh * thigh + shank * shank + 2.0 * thigh * shank * libm::cos(LEAST_FLEXION_RAD);
-        (0..=SAMPLES)
+        (0..2 * SAMPLES)
             .map(|index| {
-                let phase = LANDS + (LEAVES - LANDS) * index as f64 / SAMPLES as f64;
+                let phase = LANDS + index as f64 / (2 * SAMPLES) as f64;
                 let hip = self.hips(phase) + measured_leg(&self.frame, phase, self.gain).hip;
-                let away = hip - self.standing_ankle(phase);
+                let away = hip - self.left_leg(phase).ankle;
                 let level = away.x * away.x + away.z * away.z;
                 away.y - (longest_squared - level).max(0.0).sqrt()
             })

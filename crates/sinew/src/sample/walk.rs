@@ -12,6 +12,9 @@ const MOST_FRAMES: f64 = 216_000.0;
 
 /// A walk to be made.
 ///
+/// A stride (two steps) is 120 × speed / cadence long. Strides other than the measured 0.87 statures swing hips, trunk, thighs and arms
+/// in proportion, knees and ankles half as much; all else stays as measured.
+///
 /// ```
 /// use sinew::sample::Walk;
 /// let clip = Walk { cycles: 2, ..Walk::default() }.clip()?;
@@ -67,9 +70,10 @@ pub enum WalkError {
     },
 }
 
-/// Shortest and longest stride that the mean walk's angles are stretched to \[statures\]; they were measured at 0.87.
+/// Shortest and longest stride that the mean walk's angles are stretched to \[statures\]. Of the people measured the longest
+/// had 1.02, the mean 0.87.
 const LEAST_STRIDE: f64 = 0.45;
-const LONGEST_STRIDE: f64 = 1.15;
+const LONGEST_STRIDE: f64 = 1.05;
 
 impl Walk {
     /// Frames from one moment of a foot to the next.
