@@ -34,9 +34,12 @@
 mod basis;
 mod force;
 mod hips;
-mod inertia;
+mod input;
+mod limits;
 mod motion;
 mod objective;
+#[cfg(test)]
+mod oracle;
 mod push;
 mod response;
 mod settings;
