@@ -8,6 +8,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The files by name: the same in every run and on every machine.
+#[allow(clippy::type_complexity, reason = "two names with their bytes")]
 pub fn files() -> Result<[(&'static str, Vec<u8>); 2], Box<dyn Error>> {
     let walk = Walk::default();
     let clip = walk.clip()?;

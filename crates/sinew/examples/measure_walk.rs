@@ -88,7 +88,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     let own = symmetric_mean(std::slice::from_ref(person));
                     own.iter()
                         .zip(&mean)
-                        .map(|(a, b)| (a[node.index()] - b[node.index()]).to_array()[axis].to_degrees().powi(2))
+                        .map(|(a, b)| libm::pow((a[node.index()] - b[node.index()]).to_array()[axis].to_degrees(), 2.0))
                         .sum::<f64>()
                         / PHASES as f64
                 })
