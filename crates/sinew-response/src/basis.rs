@@ -4,7 +4,7 @@ use crate::settings::{Coordinates, Settings};
 use crate::torque::torques;
 use crate::upper_body::{Coordinates24, Matrix24, UpperBody};
 use nalgebra::{SMatrix, SymmetricEigen};
-use sinew_body::humanoid::{Body, Pose, UPPER_DOFS, UPPER_NODES};
+use sinew_body::humanoid::{Body, Pose, UPPER_DOFS};
 
 /// Why no basis can be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -97,13 +97,11 @@ impl Basis {
 }
 
 fn mean_inertia(body: &Body, motion: &[Pose]) -> Coordinates24 {
-    let upper = UpperBody::of(body);
+    let mut upper = UpperBody::of(body);
     let mut sum = [0.0; UPPER_DOFS];
-    let mut mass = [[0.0; UPPER_DOFS]; UPPER_DOFS];
     for pose in motion {
-        upper.mass_matrix(&upper.place(&pose.world[..UPPER_NODES]), &mut mass);
-        for (dof, sum) in sum.iter_mut().enumerate() {
-            *sum += mass[dof][dof];
+        for (sum, inertia) in sum.iter_mut().zip(upper.inertia(pose)) {
+            *sum += inertia;
         }
     }
     sum.map(|sum| sum / motion.len() as f64)

@@ -10,165 +10,374 @@
 //! | w2 y / dt | EQ4: damp velocity, relative to the input's |
 //! | w3 / dt · Ěᵀ(A y + u₀ − u₋) | EQ5: for a while after a push muscles hold their torque |
 //! | wc Êᵀ(A y + u₀ − ū + K(δ + y) + D y / dt) | EQ2: dynamics in the near-unactuated coordinates |
+//!
+//! Tracking and damping weigh each coordinate by itself, a diagonal B. The k rows of EQ2, Rᵀy + v, are few, so they are
+//! met by k multipliers (the Woodbury identity):
+//!
+//! (Rᵀ B⁻¹ R + 1/wc²) λ = Rᵀ B⁻¹ g + v,   y = B⁻¹ (g − R λ),
+//!
+//! of which a hard constraint is the case 1/wc² = 0. Only the reflex couples the coordinates in B; then B = L D Lᵀ, and
+//! L⁻¹R takes the place of R.
 
-use crate::settings::Weights;
-use crate::solve::cholesky_solve;
-use crate::upper_body::{Coordinates24, Matrix24};
+use crate::solve::{Factor, dot};
+use sinew_body::dynamics::{Real, Tree};
 use sinew_body::humanoid::UPPER_DOFS;
+use std::ops::Range;
 
-/// What one frame's optimisation is made of.
-pub(crate) struct Problem<'a> {
-    pub weights: &'a Weights,
-    /// Ê, a row each.
-    pub dynamic: &'a [Coordinates24],
-    pub time_step_secs: f64,
-    /// A = M / dt².
-    pub torque_per_step: &'a Matrix24,
-    /// δ: deviation from the input now \[rad\].
-    pub deviation: &'a Coordinates24,
-    /// The input's own step, in the coordinates of the deviated joints \[rad\]: what absolute damping acts on.
-    pub input_step: &'a Coordinates24,
-    /// u₀ \[N m\].
-    pub torque: &'a Coordinates24,
-    /// The torque that the constraint aims at: ū, or zero.
-    pub aim: &'a Coordinates24,
-    /// u₋: torque of the frame before.
-    pub torque_before: &'a Coordinates24,
-    /// w3 now; 0 when no reflex is pending.
-    pub reflex: f64,
-    /// K \[N m/rad\] and D \[N m s/rad\].
-    pub stiffness: &'a Coordinates24,
-    pub damping: &'a Coordinates24,
-    /// Coordinates held at a given step (joints that have reached their limit), with the step.
-    pub held: &'a [Option<f64>; UPPER_DOFS],
-}
+const N: usize = UPPER_DOFS;
+
+/// One number per coordinate.
+pub(crate) type Vector<S> = [S; N];
+
+/// Row by row.
+pub(crate) type Matrix<S> = [[S; N]; N];
 
 /// Weight that holds a coordinate at its limit \[1/rad\]: far above every other row, far below what costs digits.
 const HOLD: f64 = 1e6;
 
-impl Problem<'_> {
-    /// The step y \[rad\] that minimises the objectives.
-    pub(crate) fn solve(&self) -> Coordinates24 {
-        let mut hessian = [[0.0; UPPER_DOFS]; UPPER_DOFS];
-        let mut right = [0.0; UPPER_DOFS];
-        self.add_tracking(&mut hessian, &mut right);
-        if self.reflex > 0.0 {
-            self.add_reflex(&mut hessian, &mut right);
-        }
-        if self.weights.dynamics.is_finite() {
-            self.add_dynamics(&mut hessian, &mut right);
-            cholesky_solve(&mut hessian, &mut right, UPPER_DOFS);
-            right
-        } else {
-            self.solve_constrained(&hessian, &right)
-        }
-    }
+/// What the objectives are made of.
+#[derive(Clone, Debug)]
+pub struct Weighing<S: Real> {
+    /// Time step \[s\].
+    pub time_step_secs: f64,
+    /// w1 \[1/rad\].
+    pub track: S,
+    /// w2 \[s/rad\].
+    pub damp: [S; N],
+    /// wc \[1/(N m)\]; infinite for a hard constraint.
+    pub dynamics: S,
+    /// K \[N m/rad\].
+    pub stiffness: [S; N],
+    /// D \[N m s/rad\].
+    pub damping: [S; N],
+    /// Whether EQ4 damps velocity relative to the input's.
+    pub damps_relative: bool,
+}
 
-    /// What is left of the dynamic constraint after a step \[N m\].
-    pub(crate) fn residual(&self, step: &Coordinates24) -> f64 {
-        let left = |direction| {
-            let (row, value) = self.constraint(direction);
-            dot(&row, step) + value
-        };
-        self.dynamic.iter().map(|direction| left(direction) * left(direction)).sum::<f64>().sqrt()
-    }
+/// The objectives of one body and basis: what stays the same from frame to frame.
+#[derive(Clone, Debug)]
+pub struct Objective<S: Real> {
+    k: usize,
+    /// Ê: per coordinate its components in the k directions, side by side; zero beyond.
+    directions: Matrix<S>,
+    /// (K + D / dt) Ê, laid out as `directions`.
+    passive: Matrix<S>,
+    stiffness: Vector<S>,
+    /// w1².
+    track: S,
+    /// (w2 / dt)².
+    damp: Vector<S>,
+    /// 1 / B without reflex and holds.
+    inverse: Vector<S>,
+    damps_relative: bool,
+    /// 1 / wc².
+    softness: S,
+    time_step_secs: f64,
+    coupled: [Coupled; N],
+}
 
-    fn add_tracking(&self, hessian: &mut Matrix24, right: &mut Coordinates24) {
-        let track = self.weights.track * self.weights.track;
-        for i in 0..UPPER_DOFS {
-            let damp = self.weights.damp[i] / self.time_step_secs;
-            let damp = damp * damp;
-            hessian[i][i] = track + damp;
-            right[i] = -track * self.deviation[i];
-            if !self.weights.damps_relative {
-                right[i] -= damp * self.input_step[i];
+/// One frame's quantities.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a, S: Real> {
+    /// M \[kg m²\].
+    pub mass: &'a [[S; N]; N],
+    /// δ: deviation from the input now \[rad\].
+    pub deviation: &'a [S; N],
+    /// The input's own step, in the coordinates of the deviated joints \[rad\]: what absolute damping acts on.
+    pub input_step: &'a [S; N],
+    /// u₀ \[N m\].
+    pub torque: &'a [S; N],
+    /// The torque that the constraint aims at: ū, or zero \[N m\].
+    pub aim: &'a [S; N],
+    /// u₋, torque of the frame before \[N m\], and w3 now \[s/(N m)\]; while a reflex is pending.
+    pub reflex: Option<(&'a [S; N], S)>,
+    /// Which coordinates are held (1, else 0), and at what step \[rad\]: joints that have reached their limit.
+    pub held: Option<(&'a [S; N], &'a [S; N])>,
+}
+
+/// The columns in which a row of the mass matrix is not zero: the first ones, and a run further on.
+#[derive(Clone, Debug, Default)]
+struct Coupled {
+    first: usize,
+    run: Range<usize>,
+}
+
+impl<S: Real> Objective<S> {
+    /// For the tree's 24 coordinates; `directions` are the rows of Ê, at most 24.
+    ///
+    /// # Panics
+    /// If the tree has not 24 coordinates.
+    pub fn new(tree: &Tree<S>, directions: &[[S; N]], weights: &Weighing<S>) -> Objective<S> {
+        assert_eq!(tree.dofs(), N, "the upper body's coordinates");
+        let k = directions.len().min(N);
+        let per_dt = S::splat(1.0 / weights.time_step_secs);
+        let mut transposed = [[S::ZERO; N]; N];
+        let mut passive = transposed;
+        for (m, direction) in directions.iter().take(k).enumerate() {
+            for i in 0..N {
+                transposed[i][m] = direction[i];
+                passive[i][m] = (weights.stiffness[i] + weights.damping[i] * per_dt) * direction[i];
             }
-            if let Some(step) = self.held[i] {
-                hessian[i][i] += HOLD * HOLD;
-                right[i] += HOLD * HOLD * step;
-            }
+        }
+        let track = weights.track * weights.track;
+        let damp = weights.damp.map(|damp| (damp * per_dt) * (damp * per_dt));
+        Objective {
+            k,
+            directions: transposed,
+            passive,
+            stiffness: weights.stiffness,
+            track,
+            damp,
+            inverse: damp.map(|damp| (track + damp).recip()),
+            damps_relative: weights.damps_relative,
+            softness: (weights.dynamics * weights.dynamics).recip(),
+            time_step_secs: weights.time_step_secs,
+            coupled: coupled(tree),
         }
     }
 
-    /// With Ě Ěᵀ = I − Ê Êᵀ.
-    fn add_reflex(&self, hessian: &mut Matrix24, right: &mut Coordinates24) {
-        let weight = self.reflex / self.time_step_secs;
+    /// The step y \[rad\] that minimises the objectives. Exactly zero where nothing asks for a step.
+    pub fn solve(&self, frame: &Frame<S>) -> [S; N] {
+        // The number of rows is known to the compiler, so that a row of R stays in registers.
+        match self.k.div_ceil(2) {
+            0 => self.solve_with::<0>(frame),
+            1 => self.solve_with::<2>(frame),
+            2 => self.solve_with::<4>(frame),
+            3 => self.solve_with::<6>(frame),
+            4 => self.solve_with::<8>(frame),
+            5 => self.solve_with::<10>(frame),
+            6 => self.solve_with::<12>(frame),
+            7 => self.solve_with::<14>(frame),
+            8 => self.solve_with::<16>(frame),
+            9 => self.solve_with::<18>(frame),
+            10 => self.solve_with::<20>(frame),
+            11 => self.solve_with::<22>(frame),
+            _ => self.solve_with::<24>(frame),
+        }
+    }
+
+    /// The torque after a step, u₀ + A y \[N m\].
+    pub fn torque_after(&self, frame: &Frame<S>, step: &[S; N]) -> [S; N] {
+        let moved = self.times_mass(frame.mass, step);
+        let per_square = self.per_square();
+        std::array::from_fn(|i| frame.torque[i] + moved[i] * per_square)
+    }
+
+    /// What is left of the dynamic constraint after a step, by direction \[N m\]; `torque` is [`Self::torque_after`].
+    pub fn left(&self, frame: &Frame<S>, step: &[S; N], torque: &[S; N]) -> [S; N] {
+        let mut left = [S::ZERO; N];
+        for i in 0..N {
+            let active = torque[i] - frame.aim[i] + self.stiffness[i] * frame.deviation[i];
+            for ((left, &direction), &passive) in left.iter_mut().zip(&self.directions[i]).zip(&self.passive[i]) {
+                *left += direction * active + passive * step[i];
+            }
+        }
+        left
+    }
+
+    #[inline(always)]
+    fn solve_with<const K: usize>(&self, frame: &Frame<S>) -> Vector<S> {
+        let mut right = self.tracking(frame);
+        let (rows, value) = self.constraint::<K>(frame);
+        if let Some((torque_before, weight)) = frame.reflex {
+            return self.solve_coupled(frame, torque_before, weight, rows, value, right);
+        }
+        let mut inverse = self.inverse;
+        if let Some((held, step)) = frame.held {
+            for i in 0..N {
+                let hold = held[i] * S::splat(HOLD * HOLD);
+                right[i] += hold * step[i];
+                inverse[i] = (self.track + self.damp[i] + hold).recip();
+            }
+        }
+        eliminate(&rows, value, &right, &inverse, self.softness)
+    }
+
+    /// B with the reflex's rows, Ě Ěᵀ = I − Ê Êᵀ.
+    #[inline(never)]
+    fn solve_coupled<const K: usize>(
+        &self,
+        frame: &Frame<S>,
+        torque_before: &Vector<S>,
+        weight: S,
+        mut rows: [[S; K]; N],
+        value: [S; K],
+        mut right: Vector<S>,
+    ) -> Vector<S> {
+        let per_square = self.per_square();
+        let weight = weight * S::splat(1.0 / self.time_step_secs);
         let weight = weight * weight;
-        let change: Coordinates24 = std::array::from_fn(|i| self.torque[i] - self.torque_before[i]);
-        let a = self.torque_per_step;
-        for i in 0..UPPER_DOFS {
-            for j in 0..=i {
-                hessian[i][j] += weight * dot(&a[i], &a[j]);
-            }
-            right[i] -= weight * dot(&a[i], &change);
-        }
-        for direction in self.dynamic {
-            let row: Coordinates24 = std::array::from_fn(|i| dot(&a[i], direction));
-            let value = dot(direction, &change);
-            add_row(hessian, right, &row, -weight, value);
-        }
-    }
-
-    fn add_dynamics(&self, hessian: &mut Matrix24, right: &mut Coordinates24) {
-        let weight = self.weights.dynamics * self.weights.dynamics;
-        for direction in self.dynamic {
-            let (row, value) = self.constraint(direction);
-            add_row(hessian, right, &row, weight, value);
-        }
-    }
-
-    /// The constraint along one direction as `row · y + value` \[N m\].
-    fn constraint(&self, direction: &Coordinates24) -> (Coordinates24, f64) {
-        let row = std::array::from_fn(|i| {
-            dot(&self.torque_per_step[i], direction)
-                + (self.stiffness[i] + self.damping[i] / self.time_step_secs) * direction[i]
-        });
-        let mut value = 0.0;
-        for i in 0..UPPER_DOFS {
-            value += direction[i] * (self.torque[i] - self.aim[i] + self.stiffness[i] * self.deviation[i]);
-        }
-        (row, value)
-    }
-
-    /// EQ2 as printed, a hard constraint: minimise the rest subject to `row · y + value = 0`, by the Schur complement.
-    fn solve_constrained(&self, hessian: &Matrix24, right: &Coordinates24) -> Coordinates24 {
-        let k = self.dynamic.len();
-        let mut free = *right;
-        cholesky_solve(&mut hessian.clone(), &mut free, UPPER_DOFS);
-        let mut rows = [[0.0; UPPER_DOFS]; UPPER_DOFS];
-        let mut solved = [[0.0; UPPER_DOFS]; UPPER_DOFS];
-        let mut multipliers = [0.0; UPPER_DOFS];
-        for (index, direction) in self.dynamic.iter().enumerate() {
-            let (row, value) = self.constraint(direction);
-            rows[index] = row;
-            solved[index] = row;
-            cholesky_solve(&mut hessian.clone(), &mut solved[index], UPPER_DOFS);
-            multipliers[index] = dot(&row, &free) + value;
-        }
-        let mut schur = [[0.0; UPPER_DOFS]; UPPER_DOFS];
-        for i in 0..k {
-            for j in 0..k {
-                schur[i][j] = dot(&rows[i], &solved[j]);
+        // Ěᵀ of the torque's change.
+        let mut change: Vector<S> = std::array::from_fn(|i| frame.torque[i] - torque_before[i]);
+        let mut along = [S::ZERO; K];
+        for (&change, directions) in change.iter().zip(&self.directions) {
+            for (along, &direction) in along.iter_mut().zip(directions) {
+                *along += direction * change;
             }
         }
-        cholesky_solve(&mut schur, &mut multipliers, k);
-        std::array::from_fn(|i| {
-            let correction: f64 = (0..k).map(|index| solved[index][i] * multipliers[index]).sum();
-            free[i] - correction
-        })
+        for (change, directions) in change.iter_mut().zip(&self.directions) {
+            for (&along, &direction) in along.iter().zip(directions) {
+                *change -= direction * along;
+            }
+        }
+        let pull = self.times_mass(frame.mass, &change);
+        for (right, &pull) in right.iter_mut().zip(&pull) {
+            *right -= pull * (weight * per_square);
+        }
+        // A Ê, by direction.
+        let mut along = [[S::ZERO; N]; K];
+        for i in 0..N {
+            for (m, along) in along.iter_mut().enumerate() {
+                along[i] = rows[i][m] - self.passive[i][m];
+            }
+        }
+        let mut matrix = [[S::ZERO; N]; N];
+        self.square::<K, 0, 8, 24>(frame.mass, &along, weight, &mut matrix);
+        self.square::<K, 8, 16, 16>(frame.mass, &along, weight, &mut matrix);
+        self.square::<K, 16, 24, 8>(frame.mass, &along, weight, &mut matrix);
+        for i in 0..N {
+            matrix[i][i] += self.track + self.damp[i];
+        }
+        if let Some((held, step)) = frame.held {
+            for i in 0..N {
+                let hold = held[i] * S::splat(HOLD * HOLD);
+                matrix[i][i] += hold;
+                right[i] += hold * step[i];
+            }
+        }
+        let factor = Factor::of(matrix);
+        factor.forward(&mut rows);
+        factor.forward_one(&mut right);
+        let mut step = eliminate(&rows, value, &right, factor.inverse(), self.softness);
+        factor.backward_one(&mut step);
+        step
+    }
+
+    /// Rows `FROM` to `TO` of w² A (I − Ê Êᵀ) A, of each the `LENGTH` entries from `FROM` on: the matrix is symmetric.
+    #[inline(always)]
+    fn square<const K: usize, const FROM: usize, const TO: usize, const LENGTH: usize>(
+        &self,
+        mass: &Matrix<S>,
+        along: &[[S; N]; K],
+        weight: S,
+        matrix: &mut Matrix<S>,
+    ) {
+        let per_square = self.per_square();
+        let (outer, inner) = (weight, weight * per_square * per_square);
+        for i in FROM..TO {
+            let mut sums = [S::ZERO; LENGTH];
+            for j in self.coupled[i].columns() {
+                let factor = mass[i][j] * inner;
+                for (sum, &other) in sums.iter_mut().zip(&mass[j][FROM..]) {
+                    *sum += other * factor;
+                }
+            }
+            for along in along {
+                let factor = along[i] * outer;
+                for (sum, &other) in sums.iter_mut().zip(&along[FROM..]) {
+                    *sum -= other * factor;
+                }
+            }
+            for (entry, &sum) in matrix[i][FROM..].iter_mut().zip(&sums) {
+                *entry = sum;
+            }
+        }
+    }
+
+    /// g of tracking and damping.
+    #[inline(always)]
+    fn tracking(&self, frame: &Frame<S>) -> Vector<S> {
+        let mut right = frame.deviation.map(|deviation| -(self.track * deviation));
+        if !self.damps_relative {
+            for i in 0..N {
+                right[i] -= self.damp[i] * frame.input_step[i];
+            }
+        }
+        right
+    }
+
+    /// R and v: what is left of the constraint is Rᵀ y + v \[N m\].
+    #[inline(always)]
+    fn constraint<const K: usize>(&self, frame: &Frame<S>) -> ([[S; K]; N], [S; K]) {
+        let per_square = self.per_square();
+        let mut rows = [[S::ZERO; K]; N];
+        let mut value = [S::ZERO; K];
+        for (i, row) in rows.iter_mut().enumerate() {
+            let mass = &frame.mass[i];
+            let mut sums = [S::ZERO; K];
+            for j in self.coupled[i].columns() {
+                for (sum, &direction) in sums.iter_mut().zip(&self.directions[j]) {
+                    *sum += direction * mass[j];
+                }
+            }
+            for ((row, &sum), &passive) in row.iter_mut().zip(&sums).zip(&self.passive[i]) {
+                *row = sum * per_square + passive;
+            }
+            let active = frame.torque[i] - frame.aim[i] + self.stiffness[i] * frame.deviation[i];
+            for (value, &direction) in value.iter_mut().zip(&self.directions[i]) {
+                *value += direction * active;
+            }
+        }
+        (rows, value)
+    }
+
+    /// M times a vector.
+    #[inline(always)]
+    fn times_mass(&self, mass: &Matrix<S>, vector: &Vector<S>) -> Vector<S> {
+        std::array::from_fn(|i| dot(&mass[i], vector))
+    }
+
+    fn per_square(&self) -> S {
+        S::splat(1.0 / (self.time_step_secs * self.time_step_secs))
     }
 }
 
-fn add_row(hessian: &mut Matrix24, right: &mut Coordinates24, row: &Coordinates24, weight: f64, value: f64) {
-    for i in 0..UPPER_DOFS {
-        let scaled = weight * row[i];
-        for j in 0..=i {
-            hessian[i][j] += scaled * row[j];
+/// The multipliers' system, and from it B⁻¹ (g − R λ); `inverse` is the diagonal B⁻¹.
+#[inline(always)]
+fn eliminate<S: Real, const K: usize>(
+    rows: &[[S; K]; N],
+    value: [S; K],
+    right: &Vector<S>,
+    inverse: &Vector<S>,
+    softness: S,
+) -> Vector<S> {
+    let free: Vector<S> = std::array::from_fn(|i| right[i] * inverse[i]);
+    let weighed: [[S; K]; N] = std::array::from_fn(|i| rows[i].map(|value| value * inverse[i]));
+    let mut multipliers = value;
+    for (row, &free) in rows.iter().zip(&free) {
+        for (multiplier, &value) in multipliers.iter_mut().zip(row) {
+            *multiplier += value * free;
         }
-        right[i] -= scaled * value;
+    }
+    let mut schur = [[S::ZERO; K]; K];
+    for (a, schur) in schur.iter_mut().enumerate() {
+        let mut sums = [S::ZERO; K];
+        for (row, weighed) in rows.iter().zip(&weighed) {
+            for (sum, &value) in sums.iter_mut().zip(row) {
+                *sum += value * weighed[a];
+            }
+        }
+        sums[a] += softness;
+        *schur = sums;
+    }
+    Factor::of(schur).solve(&mut multipliers);
+    std::array::from_fn(|i| free[i] - dot(&weighed[i], &multipliers))
+}
+
+impl Coupled {
+    #[inline(always)]
+    fn columns(&self) -> impl Iterator<Item = usize> {
+        (0..self.first).chain(self.run.clone())
     }
 }
 
-pub(crate) fn dot(a: &Coordinates24, b: &Coordinates24) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+/// Degrees of freedom meet in the mass matrix when one lies on the other's way to the base.
+fn coupled<S: Real>(tree: &Tree<S>) -> [Coupled; N] {
+    let meets = |i: usize, j: usize| i == j || tree.ancestors(i.max(j)).any(|above| above == i.min(j));
+    std::array::from_fn(|i| {
+        let first = (0..N).take_while(|&j| meets(i, j)).count();
+        let from = (first..N).find(|&j| meets(i, j)).unwrap_or(N);
+        let to = (from..N).rev().find(|&j| meets(i, j)).map_or(from, |last| last + 1);
+        Coupled { first, run: from..to }
+    })
 }

@@ -3,12 +3,14 @@
 use crate::basis::Basis;
 use crate::force::PointForce;
 use crate::hips::{HipsDeviation, HipsState};
-use crate::objective::{Problem, dot};
+use crate::input::Input;
+use crate::limits::Limits;
+use crate::objective::{Frame, Objective, Weighing};
 use crate::settings::{REFERENCE_MASS_KG, REFLEX_SECS, Settings, Weights};
-use crate::torque::{hips_motion, steps, torque};
-use crate::upper_body::{Coordinates24, DOFS, Matrix24, UpperBody, to_coordinates, to_vectors};
+use crate::torque::{Differences, world_turn};
+use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Deviation, LegPose, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log, solve_leg};
+use sinew_body::humanoid::{Body, Deviation, LEGS, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log};
 
 /// A jump of the push's generalised force by more than this is a new perturbation \[N m for an 80 kg body\].
 const STARTLE_N_M: f64 = 1.0;
@@ -23,6 +25,10 @@ const FASTEST: f64 = 40.0;
 /// Halvings that find where a joint meets its limit: to 1e-5 of the way.
 const LIMIT_HALVINGS: usize = 17;
 
+/// A deviation that is nowhere larger, and does not grow by more in a step, is forgotten \[rad\]: nobody sees it, and a body
+/// at rest on its input costs a fraction.
+const FORGOTTEN: f64 = 1e-12;
+
 /// A character that answers to pushes while it follows a motion: one [`step`](Response::step) a frame.
 ///
 /// It keeps the two latest wanted poses and how far it is from them; nothing of the future, so it runs on a live stream as
@@ -30,12 +36,12 @@ const LIMIT_HALVINGS: usize = 17;
 #[derive(Clone, Debug)]
 pub struct Response {
     body: Body,
+    mass_kg: f64,
     upper: UpperBody,
+    limits: Limits,
     settings: Settings,
     weights: Weights,
-    dynamic: Vec<Coordinates24>,
-    stiffness: Coordinates24,
-    damping: Coordinates24,
+    objective: Objective<f64>,
     state: State,
     report: Report,
 }
@@ -53,17 +59,18 @@ pub struct Report {
 
 #[derive(Clone, Debug)]
 struct State {
-    /// The wanted poses of the frame before and of this one.
-    before: Pose,
-    now: Pose,
+    /// The wanted pose of this frame.
+    input: Input,
     /// This frame's pose as given out.
     output: Pose,
-    /// The hips as given out in the frame before: position without the ground's shift, and orientation.
-    hips_before: (DVec3, DQuat),
+    /// The hips as given out in the frame before: their position without the ground's shift, and their turn since \[rad\].
+    hips_before: DVec3,
+    hips_turn: DVec3,
     /// Each joint's turn from the frame before to this one \[rad\], child's frame.
     step: [DVec3; UPPER_NODES],
-    /// Deviation from the wanted pose \[rad\].
+    /// Deviation from the wanted pose \[rad\], and the rotations that it makes.
     deviation: Coordinates24,
+    turned: [DQuat; UPPER_NODES],
     hips: HipsState,
     shown: HipsDeviation,
     /// The ground's shift in the frame before and in this one \[m\].
@@ -78,13 +85,15 @@ struct State {
 
 impl State {
     fn at(before: &Pose, now: &Pose) -> State {
+        let input = Input::at(before, now);
         State {
-            before: *before,
-            now: *now,
             output: *now,
-            hips_before: (before.hips_position, before.world[0]),
-            step: steps(before, now),
+            hips_before: input.hips_before,
+            hips_turn: input.hips_turn,
+            step: input.step,
+            input,
             deviation: [0.0; UPPER_DOFS],
+            turned: [DQuat::IDENTITY; UPPER_NODES],
             hips: HipsState::default(),
             shown: HipsDeviation::default(),
             ground_before: DVec3::ZERO,
@@ -100,18 +109,27 @@ impl State {
 impl Response {
     /// A response that starts at rest in `first`.
     pub fn new(body: Body, basis: Basis, settings: Settings, first: &Pose) -> Response {
-        let weights = Weights::of(&settings, body.mass_kg());
+        let mass_kg = body.mass_kg();
+        let weights = Weights::of(&settings, mass_kg);
         let spring = weights.passive_frequency;
-        let stiffness = basis.inertia().map(|inertia| spring * spring * inertia);
-        let damping = basis.inertia().map(|inertia| 2.0 * weights.passive_damping * spring * inertia);
+        let upper = UpperBody::of(&body);
+        let weighing = Weighing {
+            time_step_secs: settings.time_step_secs,
+            track: weights.track,
+            damp: weights.damp,
+            dynamics: weights.dynamics,
+            stiffness: basis.inertia().map(|inertia| spring * spring * inertia),
+            damping: basis.inertia().map(|inertia| 2.0 * weights.passive_damping * spring * inertia),
+            damps_relative: weights.damps_relative,
+        };
         Response {
-            upper: UpperBody::of(&body),
-            dynamic: basis.dynamic(&settings).to_vec(),
+            objective: Objective::new(upper.tree(), basis.dynamic(&settings), &weighing),
+            limits: Limits::of(&body),
+            mass_kg,
+            upper,
             body,
             settings,
             weights,
-            stiffness,
-            damping,
             state: State::at(first, first),
             report: Report::default(),
         }
@@ -132,119 +150,125 @@ impl Response {
 
     /// As [`Response::step`], on ground that accelerates \[m/s², world\]: the body is carried along and its upper part lags.
     pub fn step_on_moving_ground(&mut self, wanted: &Pose, forces: &[PointForce], ground: DVec3) -> Pose {
-        let wanted = if wanted.is_finite() { *wanted } else { self.state.now };
-        let ground = if ground.is_finite() { ground.clamp_length_max(1e3) } else { DVec3::ZERO };
-        self.widen_limits(&wanted);
-        let dt = self.settings.time_step_secs;
         let state = &mut self.state;
+        let next = state.input.followed_by(if wanted.is_finite() { wanted } else { &state.input.pose });
+        let ground = if ground.is_finite() { ground.clamp_length_max(1e3) } else { DVec3::ZERO };
+        self.limits.widen(&mut self.body, &next.local);
+        let dt = self.settings.time_step_secs;
 
         state.hips.advance(&self.body, &state.output, forces, dt);
-        let shown = state.hips.shown(&self.body, &wanted);
-        let hips_now = (state.output.hips_position, state.output.world[0]);
-        let ground_next = state.ground * 2.0 - state.ground_before + ground * (dt * dt);
-        let unshifted = wanted.hips_position + shown.shift;
-        let hips_next = (unshifted, exp(shown.turn) * wanted.world[0]);
-
-        // The input: what it does next, and the torque that it uses now.
-        let input_steps = steps(&state.now, &wanted);
-        let aim = if self.weights.aims_at_input {
-            torque(&self.upper, [&state.before, &state.now, &wanted], dt)
-        } else {
-            [0.0; UPPER_DOFS]
-        };
-
-        // The response, were its deviation to stay as it is.
-        let deviation = to_vectors(&state.deviation);
-        let kept: [DVec3; UPPER_NODES] =
-            std::array::from_fn(|node| exp(deviation[node]).conjugate() * input_steps[node]);
-        let placement = self.upper.place(&state.output.world[..UPPER_NODES]);
-        let mut hips = hips_motion([state.hips_before, (hips_now.0 - state.ground, hips_now.1), hips_next], dt);
-        hips.acceleration += ground;
-        let rate = state.step.map(|step| step / dt);
-        let change = std::array::from_fn(|node| (kept[node] - state.step[node]) / (dt * dt));
-        let mut torque_kept = self.upper.torques(&placement, &hips, &rate, &change);
-        let load = self.upper.load(&placement, forces);
-        for (torque, load) in torque_kept.iter_mut().zip(&load) {
-            *torque -= load;
-        }
-        let mut torque_per_step: Matrix24 = [[0.0; UPPER_DOFS]; UPPER_DOFS];
-        self.upper.mass_matrix(&placement, &mut torque_per_step);
-        for row in &mut torque_per_step {
-            for value in row {
-                *value /= dt * dt;
+        if state.hips.departs() {
+            for node in LEGS.into_iter().flat_map(|(upper, lower, foot)| [upper, lower, foot]) {
+                self.body.link_mut(node).limit.widen(next.pose.local(node));
             }
         }
+        let shown = state.hips.shown(&self.body, &next.pose);
+        // The input's torque now.
+        let aim =
+            if self.weights.aims_at_input { state.input.torque(&next, &mut self.upper, dt) } else { [0.0; UPPER_DOFS] };
 
-        let reflex = state.reflex(&load, ground, self.body.mass_kg(), dt);
-        let torque_before = state.torque_before.unwrap_or(torque_kept);
-        let mut problem = Problem {
-            weights: &self.weights,
-            dynamic: &self.dynamic,
+        self.report = self.respond(next, forces, ground, shown, &aim);
+        self.state.output
+    }
+
+    /// The response's own step, once the input and the hips are known.
+    fn respond(
+        &mut self,
+        next: Input,
+        forces: &[PointForce],
+        ground: DVec3,
+        shown: HipsDeviation,
+        aim: &Coordinates24,
+    ) -> Report {
+        let Response { body, upper, limits, weights, objective, state, .. } = self;
+        let dt = self.settings.time_step_secs;
+        let ground_next = state.ground * 2.0 - state.ground_before + ground * (dt * dt);
+        let hips_position = state.output.hips_position - state.ground;
+        let hips_next = exp(shown.turn) * next.pose.world[0];
+        let hips_turn = world_turn(state.output.world[0], hips_next);
+
+        // The response, were its deviation to stay as it is.
+        let mut kept = next.step;
+        let mut local = state.input.local;
+        for node in 1..UPPER_NODES {
+            kept[node] = state.turned[node].conjugate() * kept[node];
+            local[node] *= state.turned[node];
+        }
+        let differences = Differences {
             time_step_secs: dt,
-            torque_per_step: &torque_per_step,
+            rotation: state.output.world[0],
+            positions: [state.hips_before, hips_position, next.pose.hips_position + shown.shift],
+            turns: [state.hips_turn, hips_turn],
+            local: &local,
+            steps: [&state.step, &kept],
+        };
+        let mut hips = differences.hips();
+        hips.acceleration += ground;
+        let [rate, change] = &differences.joints();
+        upper.inverse(&hips, JointMotion { local: &local, rate, change });
+        let load = upper.load(forces);
+        let mut torque = *upper.found_torques();
+        for (torque, load) in torque.iter_mut().zip(&load) {
+            *torque -= load;
+        }
+
+        let reflex = state.reflex(&load, ground, self.mass_kg, dt);
+        let torque_before = state.torque_before.unwrap_or(torque);
+        let mut frame = Frame {
+            mass: upper.found_mass(),
             deviation: &state.deviation,
             input_step: &to_coordinates(&kept),
-            torque: &torque_kept,
-            aim: &aim,
-            torque_before: &torque_before,
-            reflex: self.weights.reflex * reflex,
-            stiffness: &self.stiffness,
-            damping: &self.damping,
-            held: &[None; UPPER_DOFS],
+            torque: &torque,
+            aim,
+            reflex: (reflex > 0.0 && weights.reflex > 0.0).then_some((&torque_before, weights.reflex * reflex)),
+            held: None,
         };
-        let mut step = slowed(problem.solve(), dt);
+        let mut step = slowed(objective.solve(&frame), dt);
         let mut limited = 0;
-        let mut next = grown(&deviation, &step);
-        let mut held = [None; UPPER_DOFS];
+        let (mut turns, mut turned) = grown(&state.turned, &step);
+        let (mut held, mut stops) = ([0.0; UPPER_DOFS], [0.0; UPPER_DOFS]);
         for node in 1..UPPER_NODES {
-            let limit = &self.body.link(Node::ALL[node]).limit;
-            let local = wanted.local(Node::ALL[node]);
-            if !limit.contains(local * exp(next[node])) {
+            if !limits.contains(body, node, next.local[node] * turned[node]) {
                 limited += 1;
-                let stop = reined_in(limit, local, next[node]);
-                let stop_step = log(exp(deviation[node]).conjugate() * exp(stop));
-                for (dof, held) in held.iter_mut().enumerate() {
-                    if DOFS[dof].node.index() == node {
-                        *held = Some(stop_step[DOFS[dof].axis as usize]);
-                    }
-                }
+                let stop = reined_in(&body.link(Node::ALL[node]).limit, next.local[node], turns[node]);
+                hold(node, log(state.turned[node].conjugate() * exp(stop)), &mut stops);
+                hold(node, DVec3::ONE, &mut held);
             }
         }
         if limited > 0 {
             // The joint stops there, and the others feel it stop.
-            problem.held = &held;
-            step = slowed(problem.solve(), dt);
-            next = grown(&deviation, &step);
+            frame.held = Some((&held, &stops));
+            step = slowed(objective.solve(&frame), dt);
+            (turns, turned) = grown(&state.turned, &step);
             for node in 1..UPPER_NODES {
-                let limit = &self.body.link(Node::ALL[node]).limit;
-                let local = wanted.local(Node::ALL[node]);
-                if !limit.contains(local * exp(next[node])) {
-                    next[node] = reined_in(limit, local, next[node]);
-                    let stop_step = log(exp(deviation[node]).conjugate() * exp(next[node]));
-                    for (dof, step) in step.iter_mut().enumerate() {
-                        if DOFS[dof].node.index() == node {
-                            *step = stop_step[DOFS[dof].axis as usize];
-                        }
-                    }
+                if !limits.contains(body, node, next.local[node] * turned[node]) {
+                    turns[node] = reined_in(&body.link(Node::ALL[node]).limit, next.local[node], turns[node]);
+                    turned[node] = exp(turns[node]);
+                    hold(node, log(state.turned[node].conjugate() * turned[node]), &mut step);
                 }
             }
         }
-        let torque_now: Coordinates24 = std::array::from_fn(|dof| torque_kept[dof] + dot(&torque_per_step[dof], &step));
-        self.report = Report { residual_n_m: problem.residual(&step), reflex, limited };
+        let torque_now = objective.torque_after(&frame, &step);
+        let left = objective.left(&frame, &step, &torque_now);
+        let report = Report { residual_n_m: left.iter().map(|left| left * left).sum::<f64>().sqrt(), reflex, limited };
 
         let growth = to_vectors(&step);
+        state.deviation = to_coordinates(&turns);
         state.step = std::array::from_fn(|node| kept[node] + growth[node]);
-        state.deviation = to_coordinates(&next);
-        state.hips_before = (hips_now.0 - state.ground, hips_now.1);
-        state.ground_before = state.ground;
-        state.ground = ground_next;
+        state.turned = turned;
+        let unseen = |value: &f64| value.abs() < FORGOTTEN;
+        if state.deviation.iter().all(unseen) && step.iter().all(unseen) {
+            state.deviation = [0.0; UPPER_DOFS];
+            state.turned = [DQuat::IDENTITY; UPPER_NODES];
+            state.step = next.step;
+        }
+        (state.hips_before, state.hips_turn) = (hips_position, hips_turn);
+        (state.ground_before, state.ground) = (state.ground, ground_next);
         state.shown = shown;
         state.torque_before = Some(torque_now);
-        state.before = state.now;
-        state.now = wanted;
-        let deviation = self.deviation();
-        self.state.output = posed(&self.body, &wanted, &deviation);
-        self.state.output
+        state.output = posed(body, &next, &state.turned, &shown, ground_next);
+        state.input = next;
+        report
     }
 
     /// How far the pose given out last is from the wanted one, for [`Overlay`](sinew_body::humanoid::Overlay). Shifts are in
@@ -275,31 +299,21 @@ impl Response {
 
     /// Sets the deviation and its rate as they are, to study how it grows or dies.
     pub(crate) fn set_deviation(&mut self, deviation: &Coordinates24, last_growth: &Coordinates24) {
-        let turns = to_vectors(deviation);
+        let state = &mut self.state;
         let growth = to_vectors(last_growth);
-        let input = steps(&self.state.before, &self.state.now);
-        self.state.step = std::array::from_fn(|node| exp(turns[node]).conjugate() * input[node] + growth[node]);
-        self.state.deviation = *deviation;
-        self.state.output = posed(&self.body, &self.state.now, &Deviation { turns, ..Deviation::NONE });
-        self.state.torque_before = None;
+        state.turned = to_vectors(deviation).map(exp);
+        state.step = std::array::from_fn(|node| state.turned[node].conjugate() * state.input.step[node] + growth[node]);
+        state.deviation = *deviation;
+        state.output = posed(&self.body, &state.input, &state.turned, &HipsDeviation::default(), DVec3::ZERO);
+        state.torque_before = None;
     }
 
     /// The deviation's coordinates, and by how much the last step grew them.
     pub(crate) fn deviation_and_growth(&self) -> (Coordinates24, Coordinates24) {
-        let turns = to_vectors(&self.state.deviation);
-        let input = steps(&self.state.before, &self.state.now);
-        let growth = std::array::from_fn(|node| self.state.step[node] - exp(turns[node]).conjugate() * input[node]);
-        (self.state.deviation, to_coordinates(&growth))
-    }
-
-    fn widen_limits(&mut self, wanted: &Pose) {
-        for node in Node::ALL.into_iter().take(UPPER_NODES).skip(1) {
-            let local = wanted.local(node);
-            let limit = &mut self.body.link_mut(node).limit;
-            if !limit.contains(local) {
-                limit.widen(local);
-            }
-        }
+        let state = &self.state;
+        let growth =
+            std::array::from_fn(|node| state.step[node] - state.turned[node].conjugate() * state.input.step[node]);
+        (state.deviation, to_coordinates(&growth))
     }
 }
 
@@ -307,7 +321,7 @@ impl State {
     /// The fading weight of the reflex delay (EQ5), counted in whole frames: 1 in the frame of a perturbation. A new
     /// perturbation counts once the old one's delay is over; a lasting contact is only one.
     fn reflex(&mut self, load: &Coordinates24, ground: DVec3, mass_kg: f64, dt: f64) -> f64 {
-        let frames = (REFLEX_SECS / dt).round().max(1.0) as usize;
+        let frames = reflex_frames(dt);
         let jump: f64 = load.iter().zip(&self.load_before).map(|(now, before)| (now - before) * (now - before)).sum();
         let startled = jump.sqrt() > STARTLE_N_M * mass_kg / REFERENCE_MASS_KG
             || (ground - self.ground_acceleration).length() > STARTLE_M_PER_S2;
@@ -325,14 +339,28 @@ impl State {
     }
 }
 
-/// The nodes' deviations after a step.
-fn grown(deviation: &[DVec3; UPPER_NODES], step: &Coordinates24) -> [DVec3; UPPER_NODES] {
+fn reflex_frames(dt: f64) -> usize {
+    (REFLEX_SECS / dt).round().max(1.0) as usize
+}
+
+/// The nodes' deviations after a step, and the rotations that they make; only the coordinates' axes count.
+fn grown(turned: &[DQuat; UPPER_NODES], step: &Coordinates24) -> ([DVec3; UPPER_NODES], [DQuat; UPPER_NODES]) {
     let growth = to_vectors(step);
-    let mut next = [DVec3::ZERO; UPPER_NODES];
+    let mut turns = [DVec3::ZERO; UPPER_NODES];
     for node in 1..UPPER_NODES {
-        next[node] = log(exp(deviation[node]) * exp(growth[node]));
+        turns[node] = log(turned[node] * exp(growth[node]));
     }
-    to_vectors(&to_coordinates(&next))
+    let turns = to_vectors(&to_coordinates(&turns));
+    (turns, turns.map(exp))
+}
+
+/// Sets the coordinates of one node from its rotation vector.
+fn hold(node: usize, turn: DVec3, coordinates: &mut Coordinates24) {
+    for (value, dof) in coordinates.iter_mut().zip(DOFS) {
+        if dof.node.index() == node {
+            *value = turn[dof.axis as usize];
+        }
+    }
 }
 
 /// The step with every joint's turn within [`FASTEST`]; what is not a number stays where it is.
@@ -351,34 +379,25 @@ fn reined_in(limit: &Limit, local: DQuat, deviation: DVec3) -> DVec3 {
     deviation * inside
 }
 
-/// The wanted pose with a deviation on it, feet where the wanted pose has them.
-pub(crate) fn posed(body: &Body, wanted: &Pose, deviation: &Deviation) -> Pose {
-    let Deviation { hips_shift, hips_turn, ground_shift, turns } = *deviation;
-    let mut pose = *wanted;
-    pose.hips_position += hips_shift + ground_shift;
-    pose.world[0] = exp(hips_turn) * wanted.world[0];
-    let mut turned = [false; UPPER_NODES];
-    turned[0] = hips_turn != DVec3::ZERO;
-    for node in Node::ALL.into_iter().take(UPPER_NODES).skip(1) {
+/// The wanted pose with the deviation on it, feet where the wanted pose has them.
+fn posed(body: &Body, wanted: &Input, turned: &[DQuat; UPPER_NODES], hips: &HipsDeviation, ground: DVec3) -> Pose {
+    let mut pose = wanted.pose;
+    pose.hips_position += hips.shift + ground;
+    let hips_turned = exp(hips.turn);
+    let mut moved = [false; UPPER_NODES];
+    if hips.turn != DVec3::ZERO {
+        pose.world[0] = hips_turned * wanted.pose.world[0];
+        moved[0] = true;
+    }
+    for node in ABOVE {
         let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
-        turned[at] = turned[parent] || turns[at] != DVec3::ZERO;
-        if turned[at] {
-            pose.world[at] = (pose.world[parent] * (wanted.local(node) * exp(turns[at]))).normalize();
+        moved[at] = moved[parent] || turned[at] != DQuat::IDENTITY;
+        if moved[at] {
+            pose.world[at] = (pose.world[parent] * (wanted.local[at] * turned[at])).normalize();
         }
     }
-    if hips_turn != DVec3::ZERO || hips_shift != DVec3::ZERO {
-        let positions = wanted.positions(body);
-        for (upper, lower, foot) in [
-            (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
-            (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
-        ] {
-            let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
-            let leg = LegPose { hip, knee, ankle, knee_axis: wanted.world[lower.index()] * DVec3::X };
-            let new_hip = positions[0] + hips_shift + exp(hips_turn) * (hip - positions[0]);
-            let (thigh, shank) = solve_leg(&leg, new_hip, ankle);
-            pose.world[upper.index()] = (thigh * wanted.world[upper.index()]).normalize();
-            pose.world[lower.index()] = (shank * wanted.world[lower.index()]).normalize();
-        }
+    if hips.turn != DVec3::ZERO || hips.shift != DVec3::ZERO {
+        pose.plant_feet(body, &wanted.pose, hips.shift, hips_turned);
     }
     pose
 }

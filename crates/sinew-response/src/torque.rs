@@ -1,29 +1,69 @@
 //! The torques that a motion uses.
 
-use crate::upper_body::{Coordinates24, HipsMotion, UpperBody};
+use crate::input::Input;
+use crate::upper_body::{Coordinates24, HipsMotion, JointMotion, UpperBody};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Node, Pose, UPPER_DOFS, UPPER_NODES, log};
+use sinew_body::humanoid::{Body, Pose, UPPER_DOFS, UPPER_NODES, log};
 
-/// How the upper body turns from one pose to the next, each joint's rotation vector in the child's frame \[rad\].
-pub(crate) fn steps(from: &Pose, to: &Pose) -> [DVec3; UPPER_NODES] {
+/// How the upper body turns from one pose to the next, each joint's rotation vector in the child's frame \[rad\], from the
+/// `parent_from_node` rotations.
+pub(crate) fn steps(from: &[DQuat; UPPER_NODES], to: &[DQuat; UPPER_NODES]) -> [DVec3; UPPER_NODES] {
     let mut steps = [DVec3::ZERO; UPPER_NODES];
-    for node in Node::ALL.into_iter().take(UPPER_NODES).skip(1) {
-        steps[node.index()] = log(from.local(node).conjugate() * to.local(node));
+    for (node, step) in steps.iter_mut().enumerate().skip(1) {
+        *step = log(from[node].conjugate() * to[node]);
     }
     steps
 }
 
-/// How the hips move at the middle of three poses, by the paper's differences: backward for velocity, central for
-/// acceleration.
-pub(crate) fn hips_motion(hips: [(DVec3, DQuat); 3], time_step_secs: f64) -> HipsMotion {
-    let [(before, turned_before), (now, turned), (after, turned_after)] = hips;
-    let last = log(turned * turned_before.conjugate());
-    let next = log(turned_after * turned.conjugate());
-    let per_square = 1.0 / (time_step_secs * time_step_secs);
-    HipsMotion {
-        angular_velocity: last / time_step_secs,
-        angular_acceleration: (next - last) * per_square,
-        acceleration: ((after - now) - (now - before)) * per_square,
+/// The rotation vector in the world \[rad\] from one orientation to the next.
+pub(crate) fn world_turn(from: DQuat, to: DQuat) -> DVec3 {
+    log(to * from.conjugate())
+}
+
+/// A body's motion about one frame, by the paper's differences: backward for velocity, central for acceleration.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Differences<'a> {
+    pub time_step_secs: f64,
+    /// `world_from_hips` now.
+    pub rotation: DQuat,
+    /// The hips' positions before, now and next \[m\].
+    pub positions: [DVec3; 3],
+    /// The hips' turns to now and from now \[rad\], world.
+    pub turns: [DVec3; 2],
+    /// `parent_from_node` now.
+    pub local: &'a [DQuat; UPPER_NODES],
+    /// The joints' turns to now and from now \[rad\], child's frame.
+    pub steps: [&'a [DVec3; UPPER_NODES]; 2],
+}
+
+impl Differences<'_> {
+    pub(crate) fn hips(&self) -> HipsMotion {
+        let ([before, now, after], [last, next]) = (self.positions, self.turns);
+        let (per, per_square) = self.per_second();
+        HipsMotion {
+            rotation: self.rotation,
+            angular_velocity: last * per,
+            angular_acceleration: (next - last) * per_square,
+            acceleration: ((after - now) - (now - before)) * per_square,
+        }
+    }
+
+    /// Rates and changes of the joints.
+    pub(crate) fn joints(&self) -> [[DVec3; UPPER_NODES]; 2] {
+        let [last, next] = self.steps;
+        let (per, per_square) = self.per_second();
+        let rate = last.map(|step| step * per);
+        [rate, std::array::from_fn(|node| (next[node] - last[node]) * per_square)]
+    }
+
+    fn per_second(&self) -> (f64, f64) {
+        (1.0 / self.time_step_secs, 1.0 / (self.time_step_secs * self.time_step_secs))
+    }
+
+    /// The torque that this motion takes with no force but gravity.
+    pub(crate) fn torque(&self, upper: &mut UpperBody) -> Coordinates24 {
+        let [rate, change] = &self.joints();
+        upper.torques(&self.hips(), JointMotion { local: self.local, rate, change })
     }
 }
 
@@ -31,17 +71,15 @@ pub(crate) fn hips_motion(hips: [(DVec3, DQuat); 3], time_step_secs: f64) -> Hip
 /// gravity (EQ1): the matrix U of the paper, a column a frame. Poses follow each other at `time_step_secs`, and should be
 /// low-pass filtered (6 Hz): accelerations are second differences.
 pub fn torques(body: &Body, motion: &[Pose], time_step_secs: f64) -> Vec<[f64; UPPER_DOFS]> {
-    let upper = UpperBody::of(body);
-    motion.windows(3).map(|window| torque(&upper, [&window[0], &window[1], &window[2]], time_step_secs)).collect()
-}
-
-/// The torque at the middle of three poses.
-pub(crate) fn torque(upper: &UpperBody, poses: [&Pose; 3], time_step_secs: f64) -> Coordinates24 {
-    let [before, now, after] = poses;
-    let (last, next) = (steps(before, now), steps(now, after));
-    let hips = hips_motion(poses.map(|pose| (pose.hips_position, pose.world[0])), time_step_secs);
-    let rate = last.map(|step| step / time_step_secs);
-    let per_square = 1.0 / (time_step_secs * time_step_secs);
-    let change = std::array::from_fn(|node| (next[node] - last[node]) * per_square);
-    upper.torques(&upper.place(&now.world[..UPPER_NODES]), &hips, &rate, &change)
+    let [first, second, rest @ ..] = motion else { return Vec::new() };
+    let mut upper = UpperBody::of(body);
+    let mut now = Input::at(first, second);
+    rest.iter()
+        .map(|next| {
+            let next = now.followed_by(next);
+            let torque = now.torque(&next, &mut upper, time_step_secs);
+            now = next;
+            torque
+        })
+        .collect()
 }

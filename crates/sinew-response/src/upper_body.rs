@@ -1,41 +1,42 @@
 //! Inverse dynamics and mass matrix of the upper body on prescribed hips.
 //!
-//! The legs cannot touch the torques above once the hips' motion is given, so only twelve bodies take part. Everything is
-//! in world axes about the hips' origin: moments then add without transforms, and a character far from the world's
-//! origin keeps its digits. Joints are spherical: a joint's rate is the full angular velocity of the child relative to
-//! the parent, in the child's frame, of which the 24 coordinates are components; the rest is prescribed by the input.
+//! The legs cannot touch the torques above once the hips' motion is given, so only eleven bodies and the base take part.
+//! Joints are spherical: a joint's rate is the full angular velocity of the child relative to the parent, in the child's
+//! frame, of which the 24 coordinates are components; the rest is prescribed by the input.
 
 use crate::force::PointForce;
-use crate::inertia::{Inertia, turned};
 use crate::settings::GRAVITY;
 use glam::{DMat3, DQuat, DVec3};
-use sinew_body::humanoid::{Axis, Body, Dof, Node, UPPER_DOFS, UPPER_NODES, upper_dofs};
+use sinew_body::dynamics::{
+    Accelerations, Base, Freedom, Inverse, Link, State, Sym3, Tree, V3, Workspace, crba, inverse, rnea,
+};
+use sinew_body::humanoid::{Axis, Body, Dof, Node, Pose, UPPER_DOFS, UPPER_NODES, upper_dofs};
 
 /// A vector over the 24 coordinates of the upper body.
 pub(crate) type Coordinates24 = [f64; UPPER_DOFS];
 
-/// A symmetric matrix over them, rows of columns.
+/// A matrix over them, row by row.
 pub(crate) type Matrix24 = [[f64; UPPER_DOFS]; UPPER_DOFS];
 
 /// The coordinates' axes.
 pub(crate) const DOFS: [Dof; UPPER_DOFS] = upper_dofs();
 
-/// Parents of the upper nodes.
-const PARENT: [usize; UPPER_NODES] = {
-    let mut parents = [0; UPPER_NODES];
-    let mut node = 1;
-    while node < UPPER_NODES {
-        if let Some(parent) = Node::ALL[node].parent() {
-            parents[node] = parent.index();
-        }
-        node += 1;
+/// The upper bodies above the hips, in order.
+pub(crate) const ABOVE: [Node; UPPER_NODES - 1] = {
+    let mut above = [Node::Hips; UPPER_NODES - 1];
+    let mut at = 0;
+    while at < above.len() {
+        above[at] = Node::ALL[at + 1];
+        at += 1;
     }
-    parents
+    above
 };
 
 /// How the hips move: prescribed.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct HipsMotion {
+    /// `world_from_hips`.
+    pub rotation: DQuat,
     /// Angular velocity, world \[rad/s\].
     pub angular_velocity: DVec3,
     /// Angular acceleration, world \[rad/s²\].
@@ -44,163 +45,155 @@ pub(crate) struct HipsMotion {
     pub acceleration: DVec3,
 }
 
-/// The upper body's constants, laid out for the passes.
-#[derive(Clone, Debug)]
-pub(crate) struct UpperBody {
-    offset: [DVec3; UPPER_NODES],
-    centre: [DVec3; UPPER_NODES],
-    mass: [f64; UPPER_NODES],
-    inertia: [DVec3; UPPER_NODES],
+/// How the joints turn in one frame, by [`Node::index`]; the hips' entries are not read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct JointMotion<'a> {
+    /// `parent_from_node`.
+    pub local: &'a [DQuat; UPPER_NODES],
+    /// Relative angular velocity in the child's frame \[rad/s\].
+    pub rate: &'a [DVec3; UPPER_NODES],
+    /// Relative angular acceleration in the child's frame \[rad/s²\].
+    pub change: &'a [DVec3; UPPER_NODES],
 }
 
-/// Where the bodies are in one frame, about the hips' origin.
+/// The upper body as a tree on the hips, with room for one frame's results.
 #[derive(Clone, Debug)]
-pub(crate) struct Placement {
-    pub world: [DQuat; UPPER_NODES],
-    /// Joints \[m\], from the hips' origin.
-    pub joint: [DVec3; UPPER_NODES],
+pub(crate) struct UpperBody {
+    tree: Tree<f64>,
+    centre: [DVec3; UPPER_NODES],
+    state: State<f64>,
+    workspace: Workspace<f64>,
+    out: Inverse<f64>,
 }
 
 impl UpperBody {
     pub(crate) fn of(body: &Body) -> UpperBody {
-        let links = std::array::from_fn::<_, UPPER_NODES, _>(|node| *body.link(Node::ALL[node]));
-        UpperBody {
-            offset: links.map(|link| link.offset),
-            centre: links.map(|link| link.centre),
-            mass: links.map(|link| link.mass_kg),
-            inertia: links.map(|link| link.inertia),
-        }
-    }
-
-    /// Joint positions for given orientations.
-    pub(crate) fn place(&self, world: &[DQuat]) -> Placement {
-        let mut placement =
-            Placement { world: std::array::from_fn(|node| world[node]), joint: [DVec3::ZERO; UPPER_NODES] };
-        for node in 1..UPPER_NODES {
-            let parent = PARENT[node];
-            placement.joint[node] = placement.joint[parent] + placement.world[parent] * self.offset[node];
-        }
-        placement
-    }
-
-    /// Joint torques \[N m\] of the 24 coordinates (EQ1): recursive Newton-Euler, gravity included. `rate` and `change` are
-    /// each joint's relative angular velocity and acceleration in the child's frame.
-    pub(crate) fn torques(
-        &self,
-        at: &Placement,
-        hips: &HipsMotion,
-        rate: &[DVec3; UPPER_NODES],
-        change: &[DVec3; UPPER_NODES],
-    ) -> Coordinates24 {
-        let mut angular_velocity = [hips.angular_velocity; UPPER_NODES];
-        let mut angular_acceleration = [hips.angular_acceleration; UPPER_NODES];
-        let mut acceleration = [hips.acceleration - GRAVITY; UPPER_NODES];
-        let mut force = [DVec3::ZERO; UPPER_NODES];
-        // Moments about the hips' origin.
-        let mut moment = [DVec3::ZERO; UPPER_NODES];
-        for node in 0..UPPER_NODES {
-            let turn = at.world[node];
-            if node > 0 {
-                let parent = PARENT[node];
-                let (spin, gain) = (angular_velocity[parent], angular_acceleration[parent]);
-                let own = turn * rate[node];
-                angular_velocity[node] = spin + own;
-                angular_acceleration[node] = gain + turn * change[node] + spin.cross(own);
-                let arm = at.joint[node] - at.joint[parent];
-                acceleration[node] = acceleration[parent] + gain.cross(arm) + spin.cross(spin.cross(arm));
+        // Measures that make no sense weigh nothing, so that no body panics.
+        let finite = |vector: DVec3| if vector.is_finite() { vector } else { DVec3::ZERO };
+        let links = ABOVE.map(|node| {
+            let link = body.link(node);
+            Link {
+                // The base is the hips.
+                parent: node.parent().and_then(|parent| parent.index().checked_sub(1)),
+                offset: finite(link.offset).into(),
+                freedom: Freedom::Turn,
+                axes: node.axes().len(),
+                mass: finite(DVec3::splat(link.mass_kg)).x.max(0.0),
+                centre: finite(link.centre).into(),
+                inertia: Sym3::from_lanes(|_| DMat3::from_diagonal(finite(link.inertia).max(DVec3::ZERO))),
             }
-            let (spin, gain) = (angular_velocity[node], angular_acceleration[node]);
-            let arm = turn * self.centre[node];
-            let centre_acceleration = acceleration[node] + gain.cross(arm) + spin.cross(spin.cross(arm));
-            let own = turned(self.inertia[node], turn);
-            force[node] = centre_acceleration * self.mass[node];
-            moment[node] = own * gain + spin.cross(own * spin) + (at.joint[node] + arm).cross(force[node]);
+        });
+        let tree = Tree::new(links.to_vec()).expect("finite links, parents before children");
+        let mut state = State::at_rest(&tree);
+        for (motion, node) in state.motions.iter_mut().zip(ABOVE) {
+            let axis = |axis: &Axis| V3::from(DVec3::AXES[*axis as usize]);
+            let mut axes = [V3::ZERO; 3];
+            for (to, from) in axes.iter_mut().zip(node.axes()) {
+                *to = axis(from);
+            }
+            motion.set_axes(&axes);
         }
-        for node in (1..UPPER_NODES).rev() {
-            let parent = PARENT[node];
-            force[parent] += force[node];
-            moment[parent] += moment[node];
+        UpperBody {
+            centre: std::array::from_fn(|node| body.link(Node::ALL[node]).centre),
+            workspace: Workspace::new(&tree),
+            out: Inverse::new(&tree),
+            tree,
+            state,
         }
-        std::array::from_fn(|dof| {
-            let Dof { node, axis } = DOFS[dof];
-            let node = node.index();
-            let about_joint = moment[node] - at.joint[node].cross(force[node]);
-            axis_of(at.world[node], axis).dot(about_joint)
-        })
     }
 
-    /// The generalised force \[N m\] of forces on the 24 coordinates, Jᵀf of EQ1. Forces on the legs have none.
-    pub(crate) fn load(&self, at: &Placement, forces: &[PointForce]) -> Coordinates24 {
+    /// Joint torques \[N m\] of the 24 coordinates (EQ1), gravity included, no other force.
+    pub(crate) fn torques(&mut self, hips: &HipsMotion, joints: JointMotion) -> Coordinates24 {
+        self.set(joints);
+        let base = base(hips);
+        let mut torques = [0.0; UPPER_DOFS];
+        rnea(&self.tree, &base, &self.state, Accelerations::Relative, &[], &mut self.workspace, &mut torques);
+        torques
+    }
+
+    /// As [`UpperBody::torques`], with the mass matrix; places the bodies for [`UpperBody::load`].
+    pub(crate) fn inverse(&mut self, hips: &HipsMotion, joints: JointMotion) {
+        self.set(joints);
+        inverse(&self.tree, &base(hips), &self.state, &[], &mut self.workspace, &mut self.out);
+    }
+
+    /// The torques of the last [`UpperBody::inverse`] \[N m\].
+    pub(crate) fn found_torques(&self) -> &Coordinates24 {
+        self.out.tau.first_chunk().expect("24 coordinates")
+    }
+
+    /// The mass matrix of the last [`UpperBody::inverse`] \[kg m²\].
+    pub(crate) fn found_mass(&self) -> &Matrix24 {
+        self.out.mass.as_slice().as_chunks().0.first_chunk().expect("24 rows")
+    }
+
+    /// The mass matrix's diagonal in a pose \[kg m²\].
+    pub(crate) fn inertia(&mut self, pose: &Pose) -> Coordinates24 {
+        let locals = locals(pose);
+        for (motion, local) in self.state.motions.iter_mut().zip(&locals[1..]) {
+            motion.rotation = (*local).into();
+        }
+        let mut base = Base::at_rest(GRAVITY.into());
+        base.rotation = pose.world[0].into();
+        crba(&self.tree, &base, &self.state, &mut self.workspace, &mut self.out.mass);
+        std::array::from_fn(|dof| self.out.mass.at(dof, dof))
+    }
+
+    /// The generalised force \[N m\] of forces on the 24 coordinates, Jᵀf of EQ1, on the bodies as placed last. Forces on
+    /// the hips and the legs have none.
+    pub(crate) fn load(&self, forces: &[PointForce]) -> Coordinates24 {
         let mut load = [0.0; UPPER_DOFS];
         for push in forces.iter().map(PointForce::tamed) {
             let node = push.node.index();
             if node >= UPPER_NODES {
                 continue;
             }
-            let point = at.joint[node] + at.world[node] * push.point.unwrap_or(self.centre[node]);
-            for (load, dof) in load.iter_mut().zip(DOFS) {
-                let ancestor = dof.node.index();
-                if is_ancestor(ancestor, node) {
-                    let arm = point - at.joint[ancestor];
-                    *load += axis_of(at.world[ancestor], dof.axis).dot(arm.cross(push.force_n));
+            let mut at = node;
+            let mut point = None;
+            while at > 0 {
+                let link = self.workspace.links().link(at - 1);
+                let point = *point.get_or_insert_with(|| {
+                    link.origin + link.rotation * V3::from(push.point.unwrap_or(self.centre[node]))
+                });
+                let moment = (point - link.origin).cross(push.force_n.into());
+                let about = link.rotation.transpose_times(moment).to_array();
+                for dof in self.tree.dofs_of(at - 1) {
+                    load[dof] += about[DOFS[dof].axis as usize];
                 }
+                at = Node::ALL[at].parent().map_or(0, Node::index);
             }
         }
         load
     }
 
-    /// The mass matrix of the 24 coordinates \[kg m²\]: composite bodies.
-    pub(crate) fn mass_matrix(&self, at: &Placement, mass: &mut Matrix24) {
-        let mut composite = [Inertia::NOTHING; UPPER_NODES];
-        for node in 0..UPPER_NODES {
-            let centre = at.joint[node] + at.world[node] * self.centre[node];
-            composite[node] = Inertia::of(self.mass[node], centre, at.world[node], self.inertia[node]);
-        }
-        for node in (2..UPPER_NODES).rev() {
-            let child = composite[node];
-            composite[PARENT[node]].add(&child);
-        }
-        let axis: [DVec3; UPPER_DOFS] =
-            std::array::from_fn(|dof| axis_of(at.world[DOFS[dof].node.index()], DOFS[dof].axis));
-        for (i, row) in mass.iter_mut().enumerate() {
-            let node = DOFS[i].node.index();
-            let body = &composite[node];
-            let velocity = at.joint[node].cross(axis[i]);
-            let linear = velocity * body.mass + axis[i].cross(body.first);
-            let angular = body.second * axis[i] + body.first.cross(velocity);
-            for (j, entry) in row.iter_mut().enumerate().take(i + 1) {
-                let ancestor = DOFS[j].node.index();
-                *entry = if is_ancestor(ancestor, node) {
-                    axis[j].dot(angular) + at.joint[ancestor].cross(axis[j]).dot(linear)
-                } else {
-                    0.0
-                };
-            }
-        }
-        for i in 0..UPPER_DOFS {
-            for j in 0..i {
-                mass[j][i] = mass[i][j];
-            }
+    /// Which coordinates the mass matrix couples.
+    pub(crate) fn tree(&self) -> &Tree<f64> {
+        &self.tree
+    }
+
+    fn set(&mut self, joints: JointMotion) {
+        for (index, motion) in self.state.motions.iter_mut().enumerate() {
+            let node = index + 1;
+            motion.rotation = joints.local[node].into();
+            motion.velocity = joints.rate[node].into();
+            motion.acceleration = joints.change[node].into();
         }
     }
 }
 
-/// The world direction of an axis of a node's frame.
-fn axis_of(world_from_node: DQuat, axis: Axis) -> DVec3 {
-    let columns = DMat3::from_quat(world_from_node);
-    match axis {
-        Axis::X => columns.x_axis,
-        Axis::Y => columns.y_axis,
-        Axis::Z => columns.z_axis,
+fn base(hips: &HipsMotion) -> Base<f64> {
+    Base {
+        rotation: hips.rotation.into(),
+        angular_velocity: hips.angular_velocity.into(),
+        angular_acceleration: hips.angular_acceleration.into(),
+        acceleration: hips.acceleration.into(),
+        ..Base::at_rest(GRAVITY.into())
     }
 }
 
-fn is_ancestor(ancestor: usize, node: usize) -> bool {
-    let mut at = node;
-    while at > ancestor {
-        at = PARENT[at];
-    }
-    at == ancestor
+/// `parent_from_node` of the upper bodies; the hips': `world_from_hips`.
+pub(crate) fn locals(pose: &Pose) -> [DQuat; UPPER_NODES] {
+    std::array::from_fn(|node| pose.local(Node::ALL[node]))
 }
 
 /// Spreads coordinates over the nodes' rotation vectors.
@@ -215,4 +208,76 @@ pub(crate) fn to_vectors(coordinates: &Coordinates24) -> [DVec3; UPPER_NODES] {
 /// Picks the coordinates out of the nodes' rotation vectors; components about other axes are dropped.
 pub(crate) fn to_coordinates(vectors: &[DVec3; UPPER_NODES]) -> Coordinates24 {
     std::array::from_fn(|dof| vectors[DOFS[dof].node.index()][DOFS[dof].axis as usize])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::{Oracle, OracleHips};
+    use proptest::prelude::*;
+    use sinew_body::humanoid::exp;
+
+    fn vectors(scale: f64) -> impl Strategy<Value = Vec<DVec3>> {
+        let one = -scale..scale;
+        proptest::collection::vec((one.clone(), one.clone(), one), UPPER_NODES + 4)
+            .prop_map(|all| all.into_iter().map(DVec3::from).collect())
+    }
+
+    /// Relative to the largest: rounding of a chain of eight bodies.
+    fn agree(ours: &[f64], theirs: &[f64]) -> bool {
+        let largest = theirs.iter().fold(1.0, |largest: f64, value| largest.max(value.abs()));
+        ours.iter().zip(theirs).all(|(a, b)| (a - b).abs() < 1e-11 * largest)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..ProptestConfig::default() })]
+        #[test]
+        fn torques_mass_and_load_agree_with_plain_vectors(
+            turns in vectors(1.5), rates in vectors(8.0), changes in vectors(60.0), forces in vectors(300.0),
+        ) {
+            let body = Body::standard(63.0, 1.55);
+            let locals = Node::ALL.map(|node| if node.is_leg() { DQuat::IDENTITY } else { exp(turns[node.index()]) });
+            let pose = Pose::from_locals(DVec3::new(3.0, 1.0, -2.0), &locals);
+            let (rate, change) = (std::array::from_fn(|node| rates[node]), std::array::from_fn(|node| changes[node]));
+            let [angular_velocity, angular_acceleration, acceleration] = [rates[13], changes[13], changes[14]];
+            let hips = HipsMotion { rotation: pose.world[0], angular_velocity, angular_acceleration, acceleration };
+            let pushes = [
+                PointForce::at_centre(Node::LeftHand, forces[0]),
+                PointForce { node: Node::Head, point: Some(turns[0] * 0.1), force_n: forces[1] },
+                PointForce::at_centre(Node::LeftFoot, forces[2]),
+                PointForce::at_centre(Node::Hips, forces[3]),
+            ];
+
+            let oracle = Oracle::of(&body);
+            let placement = oracle.place(&pose.world[..UPPER_NODES]);
+            let their_hips = OracleHips { angular_velocity, angular_acceleration, acceleration };
+            let their_torques = oracle.torques(&placement, &their_hips, &rate, &change);
+            let mut their_mass = [[0.0; UPPER_DOFS]; UPPER_DOFS];
+            oracle.mass_matrix(&placement, &mut their_mass);
+
+            let mut upper = UpperBody::of(&body);
+            let local = super::locals(&pose);
+            let joints = JointMotion { local: &local, rate: &rate, change: &change };
+            prop_assert!(agree(&upper.torques(&hips, joints), &their_torques));
+            upper.inverse(&hips, joints);
+            prop_assert!(agree(upper.found_torques(), &their_torques));
+            prop_assert!(agree(upper.found_mass().as_flattened(), their_mass.as_flattened()));
+            prop_assert!(agree(&upper.load(&pushes), &oracle.load(&placement, &pushes)));
+            let diagonal: Coordinates24 = std::array::from_fn(|dof| their_mass[dof][dof]);
+            prop_assert!(agree(&upper.inertia(&pose), &diagonal));
+        }
+    }
+
+    #[test]
+    fn the_trees_coordinates_are_the_humanoids() {
+        let upper = UpperBody::of(&Body::standard(80.0, 1.7));
+        let nodes: Vec<Node> = upper.tree().link_of_dof().iter().map(|&link| ABOVE[link]).collect();
+        assert_eq!(nodes, DOFS.map(|dof| dof.node));
+        for (motion, node) in upper.state.motions.iter().zip(ABOVE) {
+            for (index, &axis) in node.axes().iter().enumerate() {
+                let along = motion.axes.transpose().columns[index];
+                assert_eq!(DVec3::from(along), DVec3::AXES[axis as usize]);
+            }
+        }
+    }
 }

@@ -1,0 +1,56 @@
+//! The wanted motion as the response sees it: one frame, and the step that led to it.
+
+use crate::torque::{Differences, steps, world_turn};
+use crate::upper_body::{Coordinates24, UpperBody, locals};
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Pose, UPPER_NODES};
+
+/// A wanted pose with all that is needed of it and of the one before, each found once.
+#[derive(Clone, Debug)]
+pub(crate) struct Input {
+    pub pose: Pose,
+    /// `parent_from_node` of the upper bodies.
+    pub local: [DQuat; UPPER_NODES],
+    /// The hips' position in the frame before \[m\].
+    pub hips_before: DVec3,
+    /// The hips' turn from the frame before \[rad\], world.
+    pub hips_turn: DVec3,
+    /// Each joint's turn from the frame before \[rad\], child's frame.
+    pub step: [DVec3; UPPER_NODES],
+}
+
+impl Input {
+    /// A pose and the one before it.
+    pub(crate) fn at(before: &Pose, pose: &Pose) -> Input {
+        Input::from(before, &locals(before), pose)
+    }
+
+    /// The next frame.
+    pub(crate) fn followed_by(&self, next: &Pose) -> Input {
+        Input::from(&self.pose, &self.local, next)
+    }
+
+    fn from(before: &Pose, local_before: &[DQuat; UPPER_NODES], pose: &Pose) -> Input {
+        let local = locals(pose);
+        Input {
+            pose: *pose,
+            step: steps(local_before, &local),
+            local,
+            hips_before: before.hips_position,
+            hips_turn: world_turn(before.world[0], pose.world[0]),
+        }
+    }
+
+    /// The torque \[N m\] that this frame's motion takes, given the next frame.
+    pub(crate) fn torque(&self, next: &Input, upper: &mut UpperBody, time_step_secs: f64) -> Coordinates24 {
+        Differences {
+            time_step_secs,
+            rotation: self.pose.world[0],
+            positions: [self.hips_before, self.pose.hips_position, next.pose.hips_position],
+            turns: [self.hips_turn, next.hips_turn],
+            local: &self.local,
+            steps: [&self.step, &next.step],
+        }
+        .torque(upper)
+    }
+}
