@@ -46,7 +46,7 @@ fn parts(file: &[u8]) -> (Value, Vec<u8>) {
 fn nodding(clip: &Clip, joint: usize) -> Clip {
     let mut clip = clip.clone();
     for frame in 0..clip.frames() {
-        let nod = DQuat::from_rotation_x((frame as f64 * 0.3).sin() * 0.4);
+        let nod = DQuat::from_rotation_x(libm::sin(frame as f64 * 0.3) * 0.4);
         clip.set_rotation(frame, joint, clip.rotation(frame, joint) * nod);
     }
     clip

@@ -30,9 +30,10 @@ fn clip(roots: usize) -> Clip {
         let t = f64::from(frame) / 120.0;
         let mut locals = rests.clone();
         for (joint, local) in locals.iter_mut().enumerate().take(count).filter(|(joint, _)| *joint != spine) {
-            local.rotation *= DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), (t * 4.0 + joint as f64).sin() * 4.0);
+            local.rotation *=
+                DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), libm::sin(t * 4.0 + joint as f64) * 4.0);
         }
-        locals[hips].translation = DVec3::new(0.1 * t, 0.9 + 0.02 * (t * 9.0).sin(), 1.3 * t);
+        locals[hips].translation = DVec3::new(0.1 * t, 0.9 + 0.02 * libm::sin(t * 9.0), 1.3 * t);
         clip.push(&locals);
     }
     clip

@@ -343,7 +343,7 @@ fn repeating_does_the_same_to_the_bit() {
     let cycle = find_cycle(&body.clip, &body.humanoid).unwrap();
     assert_eq!(
         repeat(&body.clip, &body.humanoid, (cycle.first, cycle.last), 4),
-        repeat(&body.clip, &body.humanoid, &cycle, 4)
+        repeat(&body.clip, &body.humanoid, (cycle.first, cycle.last), 4)
     );
 }
 

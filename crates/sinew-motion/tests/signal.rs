@@ -5,7 +5,7 @@ use sinew_motion::{Clip, Joint, LowPass, LowPassStream, PoseStream, Skeleton, Tr
 use std::f64::consts::{PI, TAU};
 
 fn sine(hz: f64, fps: f64, samples: usize) -> Vec<[f64; 1]> {
-    (0..samples).map(|at| [(TAU * hz * at as f64 / fps).sin()]).collect()
+    (0..samples).map(|at| [libm::sin(TAU * hz * at as f64 / fps)]).collect()
 }
 
 /// Amplitude and phase \[rad\] of a signal at a frequency, over the middle of it and whole periods.
@@ -15,11 +15,11 @@ fn response(signal: &[[f64; 1]], hz: f64, fps: f64) -> (f64, f64) {
     let (mut real, mut imaginary) = (0.0, 0.0);
     for at in range.clone() {
         let angle = TAU * hz * at as f64 / fps;
-        real += signal[at][0] * angle.sin();
-        imaginary += signal[at][0] * angle.cos();
+        real += signal[at][0] * libm::sin(angle);
+        imaginary += signal[at][0] * libm::cos(angle);
     }
     let scale = 2.0 / range.len() as f64;
-    ((real * real + imaginary * imaginary).sqrt() * scale, imaginary.atan2(real))
+    ((real * real + imaginary * imaginary).sqrt() * scale, libm::atan2(imaginary, real))
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn one_pass_halves_the_power_at_the_cutoff_and_lags() {
 
 #[test]
 fn two_passes_halve_the_amplitude_at_the_cutoff_and_do_not_lag() {
-    for (hz, gain) in [(6.0, 0.5), (1.0, 1.0 / (1.0 + (1.0_f64 / 6.0).powi(4)))] {
+    for (hz, gain) in [(6.0, 0.5), (1.0, 1.0 / (1.0 + libm::pow(1.0 / 6.0, 4.0)))] {
         let fps = 120.0;
         let mut signal = sine(hz, fps, (40.0 * fps / hz) as usize);
         LowPass::new(6.0, fps).zero_phase(&mut signal);
@@ -112,8 +112,8 @@ fn swing(fps: f64, frames: usize) -> Clip {
     for frame in 0..frames {
         let time = frame as f64 / fps;
         let sign = if frame % 2 == 0 { 1.0 } else { -1.0 };
-        let rotation = DQuat::from_rotation_x((3.0 * time).sin()) * sign;
-        clip.push(&[Transform::new(rotation, DVec3::new(time, (2.0 * time).sin(), 0.0))]);
+        let rotation = DQuat::from_rotation_x(libm::sin(3.0 * time)) * sign;
+        clip.push(&[Transform::new(rotation, DVec3::new(time, libm::sin(2.0 * time), 0.0))]);
     }
     clip
 }

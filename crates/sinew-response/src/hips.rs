@@ -7,7 +7,7 @@
 
 use crate::force::PointForce;
 use glam::DVec3;
-use sinew_body::humanoid::{Body, Node, Pose, exp};
+use sinew_body::humanoid::{Body, LegPose, Node, Pose, exp, shift_within_reach, solve_leg};
 
 /// Frequency of the return \[rad/s\].
 const RETURN: f64 = 5.0;
@@ -19,11 +19,8 @@ const LARGEST_SHIFT_M: f64 = 0.05;
 /// 400 N on a hand would turn the hips by half a right angle.
 const LARGEST_TURN: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
-/// Sweeps over the two legs; each is a projection onto a ball, and two balls that meet need few.
-const SWEEPS: usize = 16;
-
-/// How straight a leg may get \[1 of its length\] unless the input's is straighter: knees do not snap.
-const STRAIGHTEST: f64 = 0.9995;
+/// Halvings on the way to the largest departure that the legs' joints allow: to a thousandth.
+const LIMIT_HALVINGS: usize = 10;
 
 /// The hips' departure from the input.
 #[derive(Clone, Copy, Debug, Default)]
@@ -84,34 +81,67 @@ impl HipsState {
             let length = vector.length();
             if length == 0.0 { vector } else { vector * (limit * libm::tanh(length / limit) / length) }
         };
-        let turn = saturated(self.turn, LARGEST_TURN);
-        let mut shift = saturated(self.shift, LARGEST_SHIFT_M * body.stature_m() / 1.7);
-        let positions = input.positions(body);
-        let turned = exp(turn);
-        let legs = [
-            (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
-            (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
-        ]
-        .map(|(upper, lower, foot)| {
-            let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
-            let length = (knee - hip).length() + (ankle - knee).length();
-            let reach = (length * STRAIGHTEST).max((ankle - hip).length());
-            (positions[0] + turned * (hip - positions[0]) - ankle, reach)
-        });
-        for _ in 0..SWEEPS {
-            let mut moved = false;
-            for (from_ankle, reach) in legs {
-                let line = from_ankle + shift;
-                let length = line.length();
-                if length > reach {
-                    shift -= line * (1.0 - reach / length);
-                    moved = true;
-                }
-            }
-            if !moved {
-                break;
-            }
+        let whole = HipsDeviation {
+            turn: saturated(self.turn, LARGEST_TURN),
+            shift: saturated(self.shift, LARGEST_SHIFT_M * body.stature_m() / 1.7),
+        };
+        let legs = Legs::of(body, input);
+        let mut shown = legs.reached(whole);
+        if legs.are_within_limits(body, input, &shown) {
+            return shown;
         }
-        HipsDeviation { shift, turn }
+        // The input's own legs are within their limits: part of the way is, too.
+        let (mut inside, mut outside) = (0.0, 1.0);
+        for _ in 0..LIMIT_HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            let part = legs.reached(HipsDeviation { turn: whole.turn * middle, shift: whole.shift * middle });
+            if legs.are_within_limits(body, input, &part) { inside = middle } else { outside = middle }
+        }
+        shown = legs.reached(HipsDeviation { turn: whole.turn * inside, shift: whole.shift * inside });
+        shown
+    }
+}
+
+/// The input's legs, by which the hips' departure is bounded.
+struct Legs {
+    hips: DVec3,
+    legs: [LegPose; 2],
+}
+
+/// Upper leg, lower leg and foot of both sides.
+const LEGS: [[Node; 3]; 2] = [
+    [Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot],
+    [Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot],
+];
+
+impl Legs {
+    fn of(body: &Body, input: &Pose) -> Legs {
+        let positions = input.positions(body);
+        let legs = LEGS.map(|leg| {
+            let [hip, knee, ankle] = leg.map(|node| positions[node.index()]);
+            LegPose { hip, knee, ankle, knee_axis: input.world[leg[1].index()] * DVec3::X }
+        });
+        Legs { hips: positions[0], legs }
+    }
+
+    /// The departure with its shift brought within reach of both ankles.
+    fn reached(&self, wanted: HipsDeviation) -> HipsDeviation {
+        let shift = shift_within_reach(&self.legs, self.hips, exp(wanted.turn), wanted.shift);
+        HipsDeviation { shift, ..wanted }
+    }
+
+    /// Whether hip, knee and ankle joints are within their limits with the feet where the input has them.
+    fn are_within_limits(&self, body: &Body, input: &Pose, shown: &HipsDeviation) -> bool {
+        let turn = exp(shown.turn);
+        let hips = turn * input.world[0];
+        self.legs.iter().zip(LEGS).all(|(leg, [upper, lower, foot])| {
+            let hip = self.hips + shown.shift + turn * (leg.hip - self.hips);
+            let (thigh_turn, shank_turn) = solve_leg(leg, hip, leg.ankle);
+            let thigh = thigh_turn * input.world[upper.index()];
+            let shank = shank_turn * input.world[lower.index()];
+            body.link(upper).limit.contains(hips.conjugate() * thigh)
+                && body.link(lower).limit.contains(thigh.conjugate() * shank)
+                && body.link(foot).limit.contains(shank.conjugate() * input.world[foot.index()])
+        })
     }
 }

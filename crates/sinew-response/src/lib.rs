@@ -36,6 +36,7 @@ mod force;
 mod hips;
 mod input;
 mod limits;
+mod live;
 mod motion;
 mod objective;
 #[cfg(test)]
@@ -51,6 +52,7 @@ mod upper_body;
 
 pub use basis::{Basis, BasisError};
 pub use force::PointForce;
+pub use live::Live;
 pub use motion::Motion;
 pub use push::{GroundJerk, Push, PushFrame};
 pub use response::{Report, Response};
@@ -58,3 +60,9 @@ pub use settings::{Coordinates, Preset, Settings};
 pub use stability::{growth, stable_compliance};
 pub use torque::torques;
 pub use track::{Disturbances, Track};
+
+/// The optimisation of one frame by itself, for benchmarks on other bodies.
+#[doc(hidden)]
+pub mod bench {
+    pub use crate::objective::{Frame, Objective, Weighing};
+}

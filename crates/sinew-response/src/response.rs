@@ -8,7 +8,7 @@ use crate::limits::Limits;
 use crate::objective::{Frame, Objective, Weighing};
 use crate::settings::{REFERENCE_MASS_KG, REFLEX_SECS, Settings, Weights};
 use crate::torque::{Differences, world_turn};
-use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
+use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, locals, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Deviation, LegPose, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log, solve_leg};
 
@@ -164,7 +164,7 @@ impl Response {
         let state = &mut self.state;
         let next = state.input.followed_by(if wanted.is_finite() { wanted } else { &state.input.pose });
         let ground = if ground.is_finite() { ground.clamp_length_max(1e3) } else { DVec3::ZERO };
-        self.limits.widen(&mut self.body, &next.local);
+        self.limits.widen(&mut self.body, &next.pose, &next.local);
         let dt = self.settings.time_step_secs;
 
         state.hips.advance(&self.body, &state.output, forces, dt);
@@ -284,7 +284,8 @@ impl Response {
         (state.ground_before, state.ground) = (state.ground, ground_next);
         state.shown = shown;
         state.torque_before = Some(torque_now);
-        state.output = posed(body, &next, &state.turned, &shown, ground_next);
+        let deviation = state.shown_deviation();
+        state.output = posed_on(body, &next.pose, &next.local, &state.turned, &deviation);
         state.input = next;
         report
     }
@@ -292,12 +293,7 @@ impl Response {
     /// How far the pose given out last is from the wanted one, for [`Overlay`](sinew_body::humanoid::Overlay). Shifts are in
     /// metres of the body.
     pub fn deviation(&self) -> Deviation {
-        Deviation {
-            hips_shift: self.state.shown.shift,
-            hips_turn: self.state.shown.turn,
-            ground_shift: self.state.ground,
-            turns: to_vectors(&self.state.deviation),
-        }
+        self.state.shown_deviation()
     }
 
     /// What the last step did.
@@ -323,7 +319,8 @@ impl Response {
         state.step =
             std::array::from_fn(|node| state.turned[node].conjugate() * state.input.step[node] + growth[node]);
         state.deviation = *deviation;
-        state.output = posed(&self.body, &state.input, &state.turned, &HipsDeviation::default(), DVec3::ZERO);
+        let Input { pose, local, .. } = &state.input;
+        state.output = posed_on(&self.body, pose, local, &state.turned, &Deviation::NONE);
         state.torque_before = None;
     }
 
@@ -337,6 +334,16 @@ impl Response {
 }
 
 impl State {
+    /// How far the pose given out is from the input's.
+    fn shown_deviation(&self) -> Deviation {
+        Deviation {
+            hips_shift: self.shown.shift,
+            hips_turn: self.shown.turn,
+            ground_shift: self.ground,
+            turns: to_vectors(&self.deviation),
+        }
+    }
+
     /// Whether nothing has happened to the body for longer than the reflex delay.
     fn is_calm(&self, dt: f64) -> bool {
         self.load_before == [0.0; UPPER_DOFS]
@@ -416,35 +423,45 @@ fn reined_in(limit: &Limit, local: DQuat, deviation: DVec3) -> DVec3 {
     deviation * inside
 }
 
-/// The wanted pose with the deviation on it, feet where the wanted pose has them.
-fn posed(body: &Body, wanted: &Input, turned: &[DQuat; UPPER_NODES], hips: &HipsDeviation, ground: DVec3) -> Pose {
-    let mut pose = wanted.pose;
-    pose.hips_position += hips.shift + ground;
-    let hips_turned = exp(hips.turn);
+/// The wanted pose with a deviation on it, feet where the wanted pose has them.
+pub(crate) fn posed(body: &Body, wanted: &Pose, deviation: &Deviation) -> Pose {
+    posed_on(body, wanted, &locals(wanted), &deviation.turns.map(exp), deviation)
+}
+
+/// As [`posed`], from the wanted pose's `parent_from_node` and the rotations that the deviation makes of them.
+fn posed_on(
+    body: &Body,
+    wanted: &Pose,
+    local: &[DQuat; UPPER_NODES],
+    turned: &[DQuat; UPPER_NODES],
+    deviation: &Deviation,
+) -> Pose {
+    let Deviation { hips_shift, hips_turn, ground_shift, .. } = *deviation;
+    let mut pose = *wanted;
+    pose.hips_position += hips_shift + ground_shift;
+    let hips_turned = exp(hips_turn);
+    pose.world[0] = hips_turned * wanted.world[0];
     let mut moved = [false; UPPER_NODES];
-    if hips.turn != DVec3::ZERO {
-        pose.world[0] = hips_turned * wanted.pose.world[0];
-        moved[0] = true;
-    }
+    moved[0] = hips_turn != DVec3::ZERO;
     for node in ABOVE {
         let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
         moved[at] = moved[parent] || turned[at] != DQuat::IDENTITY;
         if moved[at] {
-            pose.world[at] = (pose.world[parent] * (wanted.local[at] * turned[at])).normalize();
+            pose.world[at] = (pose.world[parent] * (local[at] * turned[at])).normalize();
         }
     }
-    if hips.turn != DVec3::ZERO || hips.shift != DVec3::ZERO {
-        let positions = wanted.pose.positions(body);
+    if hips_turn != DVec3::ZERO || hips_shift != DVec3::ZERO {
+        let positions = wanted.positions(body);
         for (upper, lower, foot) in [
             (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
             (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
         ] {
             let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
-            let leg = LegPose { hip, knee, ankle, knee_axis: wanted.pose.world[lower.index()] * DVec3::X };
-            let new_hip = positions[0] + hips.shift + hips_turned * (hip - positions[0]);
+            let leg = LegPose { hip, knee, ankle, knee_axis: wanted.world[lower.index()] * DVec3::X };
+            let new_hip = positions[0] + hips_shift + hips_turned * (hip - positions[0]);
             let (thigh, shank) = solve_leg(&leg, new_hip, ankle);
-            pose.world[upper.index()] = (thigh * wanted.pose.world[upper.index()]).normalize();
-            pose.world[lower.index()] = (shank * wanted.pose.world[lower.index()]).normalize();
+            pose.world[upper.index()] = (thigh * wanted.world[upper.index()]).normalize();
+            pose.world[lower.index()] = (shank * wanted.world[lower.index()]).normalize();
         }
     }
     pose

@@ -21,26 +21,12 @@ const TRIAL: f64 = 1e-6;
 ///
 /// A stretch of fewer than three poses has no growth to tell: 0.
 pub fn growth(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
-    let [first, ..] = motion else { return 0.0 };
-    if motion.len() < 3 {
-        return 0.0;
-    }
-    let mut body = body.clone();
-    for node in Node::ALL {
-        body.link_mut(node).limit = Limit::NONE;
-    }
-    let mut response = Response::new(body, basis.clone(), *settings, first);
-    let mut product = DMatrix::<f64>::identity(STATE, STATE);
-    for window in motion.windows(3) {
-        let step = linearised(&mut response, [&window[0], &window[1], &window[2]]);
-        product = step * product;
-    }
-    let eigenvalues = product.complex_eigenvalues();
-    eigenvalues.iter().map(|value| (value.re * value.re + value.im * value.im).sqrt()).fold(0.0, f64::max)
+    growth_over(body, basis, settings, &[motion])
 }
 
-/// Small deviations must shrink to this or less over a stretch, for the compliance dial to be turned so far.
-const GROWTH_ALLOWED: f64 = 0.9;
+/// Small deviations must shrink to this or less in a second, for the compliance dial to be turned so far: from 20 degrees to 2
+/// in eight seconds.
+const GROWTH_PER_SECOND: f64 = 0.75;
 
 /// Poses in one stretch of a long motion: about a stride.
 const STRETCH: usize = 72;
@@ -48,31 +34,68 @@ const STRETCH: usize = 72;
 /// How many stretches of a long motion are looked at.
 const STRETCHES: usize = 6;
 
-/// Halvings on the way to the loosest stable dial.
-const HALVINGS: usize = 6;
+/// The dial is searched in steps of this factor, and between two of them by halving.
+const DIAL_STEP: f64 = std::f64::consts::SQRT_2;
 
-/// The compliance of `settings`, or the loosest below it at which small deviations die out on this motion. A motion longer
-/// than two strides is judged by several stretches of it, each as if it repeated.
+/// Halvings between two steps: to two per cent.
+const HALVINGS: usize = 4;
+
+/// The compliance of `settings`, or the loosest below it at which small deviations die out on this motion within seconds; where
+/// they never do so fast, the one at which they die out fastest. Of a long motion that is no cycle, six stretches are looked
+/// at, as if they followed each other.
 pub fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
-    let stretches: Vec<&[Pose]> = if motion.len() <= 2 * STRETCH {
+    let stretches: Vec<&[Pose]> = if motion.len() <= STRETCHES * STRETCH {
         vec![motion]
     } else {
         let room = motion.len() - STRETCH;
         (0..STRETCHES).map(|index| index * room / (STRETCHES - 1)).map(|at| &motion[at..at + STRETCH]).collect()
     };
-    let holds = |compliance: f64| {
-        let settings = Settings { compliance, ..*settings };
-        stretches.iter().all(|stretch| growth(body, basis, &settings, stretch) <= GROWTH_ALLOWED)
-    };
-    if holds(settings.compliance) {
-        return settings.compliance;
+    let steps: usize = stretches.iter().map(|stretch| stretch.len().saturating_sub(2)).sum();
+    let allowed = libm::pow(GROWTH_PER_SECOND, steps as f64 * settings.time_step_secs);
+    let grows = |compliance: f64| growth_over(body, basis, &Settings { compliance, ..*settings }, &stretches);
+    let asked = settings.compliance;
+    let mut least = (asked, grows(asked));
+    if least.1 <= allowed {
+        return asked;
     }
-    let (mut stable, mut unstable) = (Settings::MIN_COMPLIANCE, settings.compliance);
-    for _ in 0..HALVINGS {
-        let middle = (stable * unstable).sqrt();
-        if holds(middle) { stable = middle } else { unstable = middle }
+    let mut above = asked;
+    while above > Settings::MIN_COMPLIANCE {
+        let below = (above / DIAL_STEP).max(Settings::MIN_COMPLIANCE);
+        let growth = grows(below);
+        if growth <= allowed {
+            let (mut stable, mut unstable) = (below, above);
+            for _ in 0..HALVINGS {
+                let middle = (stable * unstable).sqrt();
+                if grows(middle) <= allowed { stable = middle } else { unstable = middle }
+            }
+            return stable;
+        }
+        if growth < least.1 {
+            least = (below, growth);
+        }
+        above = below;
     }
-    stable
+    least.0
+}
+
+fn growth_over(body: &Body, basis: &Basis, settings: &Settings, stretches: &[&[Pose]]) -> f64 {
+    let Some(first) = stretches.first().and_then(|stretch| stretch.first()) else { return 0.0 };
+    let mut body = body.clone();
+    for node in Node::ALL {
+        body.link_mut(node).limit = Limit::NONE;
+    }
+    let mut response = Response::new(body, basis.clone(), *settings, first);
+    let mut product = DMatrix::<f64>::identity(STATE, STATE);
+    let mut any = false;
+    for window in stretches.iter().flat_map(|stretch| stretch.windows(3)) {
+        product = linearised(&mut response, [&window[0], &window[1], &window[2]]) * product;
+        any = true;
+    }
+    if !any {
+        return 0.0;
+    }
+    let eigenvalues = product.complex_eigenvalues();
+    eigenvalues.iter().map(|value| (value.re * value.re + value.im * value.im).sqrt()).fold(0.0, f64::max)
 }
 
 /// The step from the middle pose to the last, as a matrix over deviation and growth.

@@ -9,6 +9,7 @@
 //! | [`response`] | a motion answers to pushes |
 //! | [`picture`] | filmstrips and plots |
 //! | [`respond`] | the whole job of `sinew respond`: a file in, an answered file out |
+//! | [`sample`] | a walk that Sinew makes itself |
 //! | [`inspect`] | what a motion file is and what Sinew makes of it |
 
 pub use sinew_body as body;
@@ -19,8 +20,9 @@ pub use sinew_response as response;
 pub mod figure;
 pub mod inspect;
 pub mod respond;
-/// temp
-pub mod sample {
-    /// temp
-    pub static WALK_BVH: &[u8] = b"";
-}
+pub mod sample;
+
+/// The README's Rust examples compile.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

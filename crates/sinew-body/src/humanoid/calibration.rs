@@ -112,7 +112,7 @@ pub(super) fn frames(samples: &Samples, clip: &Clip, humanoid: &Humanoid) -> [Op
     let at = |part| position(world, clip, humanoid, part);
     let facing = facing(world, clip, humanoid);
     let mut anatomical = [facing; Node::COUNT];
-    let line = |left: Part, right: Part| Some((at(left)? - at(right)?).try_normalize()?);
+    let line = |left: Part, right: Part| (at(left)? - at(right)?).try_normalize();
     if let Some(across) = line(Part::LeftUpperLeg, Part::RightUpperLeg) {
         anatomical[Node::Hips.index()] = from_x_up(across);
     }

@@ -19,9 +19,8 @@ pub struct LegPose {
     pub knee_axis: DVec3,
 }
 
-/// Displacement of hip and ankle over which a knee that the input bends backward comes round to bend forward \[m\]. Straight
-/// legs are so long that the ankle is then off by less than this.
-const ROUND_M: f64 = 3e-4;
+/// Displacement of hip and ankle over which a knee that the input bends backward comes round to bend forward \[m\].
+const ROUND_M: f64 = 2e-3;
 
 /// How much the hinge axis counts against the plane that the leg is in \[sine of the flexion\]: below a degree or two of
 /// flexion the plane is noise.
@@ -37,14 +36,13 @@ pub fn solve_leg(input: &LegPose, hip: DVec3, ankle: DVec3) -> (DQuat, DQuat) {
     if moved == 0.0 {
         return (DQuat::IDENTITY, DQuat::IDENTITY);
     }
-    let share = (moved / ROUND_M).min(1.0);
-    // From -1, bent backward as the input is, to 1.
-    let forward = 2.0 * share * share * (3.0 - 2.0 * share) - 1.0;
-    let forward = if flexion(input) < 0.0 { forward } else { 1.0 };
+    if flexion(input) < 0.0 {
+        return come_round(input, hip, ankle, (moved / ROUND_M).min(1.0)).unwrap_or_default();
+    }
     let (mut thigh, mut shank) = (DQuat::IDENTITY, DQuat::IDENTITY);
     let mut leg = *input;
     for _ in 0..ROUNDS {
-        let Some((thigh_turn, shank_turn)) = bend(&leg, hip, ankle, forward) else { break };
+        let Some((thigh_turn, shank_turn)) = bend(&leg, hip, ankle) else { break };
         thigh = (thigh_turn * thigh).normalize();
         shank = (shank_turn * shank).normalize();
         let knee = hip + thigh * (input.knee - input.hip);
@@ -52,6 +50,38 @@ pub fn solve_leg(input: &LegPose, hip: DVec3, ankle: DVec3) -> (DQuat, DQuat) {
         leg = LegPose { hip, knee, ankle, knee_axis: (shank * input.knee_axis).normalize() };
     }
     (thigh, shank)
+}
+
+/// How straight a leg may get \[1 of its length\] unless the input's is straighter: knees do not snap.
+const STRAIGHTEST: f64 = 0.9995;
+
+/// Sweeps over the two legs; each is a projection onto a ball, and two balls that meet need few.
+const SWEEPS: usize = 16;
+
+/// The shift of the hips \[m\] closest to `shift` at which both legs of the input still reach their ankles when the hips, at
+/// `centre`, are turned by `turn` (`world_from_world`) and then shifted: as a rule the hips sink a little.
+pub fn shift_within_reach(legs: &[LegPose; 2], centre: DVec3, turn: DQuat, shift: DVec3) -> DVec3 {
+    let legs = legs.map(|leg| {
+        let length = (leg.knee - leg.hip).length() + (leg.ankle - leg.knee).length();
+        let reach = (length * STRAIGHTEST).max((leg.ankle - leg.hip).length());
+        (centre + turn * (leg.hip - centre) - leg.ankle, reach)
+    });
+    let mut shift = shift;
+    for _ in 0..SWEEPS {
+        let mut moved = false;
+        for (from_ankle, reach) in legs {
+            let line = from_ankle + shift;
+            let length = line.length();
+            if length > reach {
+                shift -= line * (1.0 - reach / length);
+                moved = true;
+            }
+        }
+        if !moved {
+            break;
+        }
+    }
+    shift
 }
 
 /// The knee's flexion \[rad\], negative when it is bent backward.
@@ -62,8 +92,40 @@ fn flexion(leg: &LegPose) -> f64 {
     if normal.dot(leg.knee_axis) < 0.0 { -angle } else { angle }
 }
 
+/// The flexion \[rad\] at which a leg is so long.
+fn flexion_for(thigh: f64, shank: f64, length: f64) -> f64 {
+    let length = length.clamp((thigh - shank).abs() + 1e-9, thigh + shank);
+    let at_knee = (thigh * thigh + shank * shank - length * length) / (2.0 * thigh * shank);
+    std::f64::consts::PI - libm::acos(at_knee.clamp(-1.0, 1.0))
+}
+
+/// The angle at the hip from the line to the ankle to the thigh \[rad\].
+fn hip_angle(thigh: f64, shank: f64, flexion: f64) -> f64 {
+    let (sin, cos) = libm::sincos(flexion);
+    libm::atan2(shank * sin, thigh + shank * cos)
+}
+
+/// A leg that the input bends backward: with a growing `share` of displacement its knee goes half around the line from hip to
+/// ankle, so that it ends up in front without ever stretching the leg.
+fn come_round(leg: &LegPose, hip: DVec3, ankle: DVec3, share: f64) -> Option<(DQuat, DQuat)> {
+    let (thigh_line, shank_line) = (leg.knee - leg.hip, leg.ankle - leg.knee);
+    let (thigh, shank) = (thigh_line.length(), shank_line.length());
+    let old_line = (leg.ankle - leg.hip).try_normalize()?;
+    let new_line = (ankle - hip).try_normalize()?;
+    let turn = DQuat::from_rotation_arc(old_line, new_line);
+    let behind = turn * (thigh_line - old_line * thigh_line.dot(old_line)).try_normalize()?;
+    let aside = new_line.cross(behind);
+    let angle = hip_angle(thigh, shank, flexion_for(thigh, shank, (ankle - hip).length()));
+    let (sin, cos) = libm::sincos(angle);
+    let (across, back) = libm::sincos(std::f64::consts::PI * share * share * (3.0 - 2.0 * share));
+    let knee = hip + new_line * (thigh * cos) + (behind * back + aside * across) * (thigh * sin);
+    let arc = |from: DVec3, to: DVec3| Some(DQuat::from_rotation_arc(from.try_normalize()?, to.try_normalize()?));
+    let reached = knee + (ankle - knee).try_normalize()? * shank;
+    Some((arc(turn * thigh_line, knee - hip)? * turn, arc(turn * shank_line, reached - knee)? * turn))
+}
+
 /// One round: turns the leg towards the ankle as a whole, then bends it. `None` for a leg without length.
-fn bend(leg: &LegPose, hip: DVec3, ankle: DVec3, forward: f64) -> Option<(DQuat, DQuat)> {
+fn bend(leg: &LegPose, hip: DVec3, ankle: DVec3) -> Option<(DQuat, DQuat)> {
     let (thigh_line, shank_line) = (leg.knee - leg.hip, leg.ankle - leg.knee);
     let (thigh, shank) = (thigh_line.length(), shank_line.length());
     let (old_line, new_line) = (leg.ankle - leg.hip, ankle - hip);
@@ -72,17 +134,10 @@ fn bend(leg: &LegPose, hip: DVec3, ankle: DVec3, forward: f64) -> Option<(DQuat,
         return None;
     }
     let turn = DQuat::from_rotation_arc(old_line / old_length, new_line / new_length);
-    let wanted = new_length.clamp((thigh - shank).abs() + 1e-9, thigh + shank);
-    let at_knee = (thigh * thigh + shank * shank - wanted * wanted) / (2.0 * thigh * shank);
     let old_flexion = flexion(leg);
-    let new_flexion = forward * (std::f64::consts::PI - libm::acos(at_knee.clamp(-1.0, 1.0)));
-    // Angle at the hip from the line to the ankle to the thigh.
-    let at_hip = |flexion: f64| {
-        let (sin, cos) = libm::sincos(flexion);
-        libm::atan2(shank * sin, thigh + shank * cos)
-    };
+    let new_flexion = flexion_for(thigh, shank, new_length);
+    let at_hip = |flexion: f64| hip_angle(thigh, shank, flexion);
     let normal = thigh_line.cross(shank_line) / (thigh * shank);
-    let normal = if old_flexion < 0.0 { -normal } else { normal };
     let axis = turn * (normal + leg.knee_axis * HINGE_SHARE).try_normalize()?;
     let hip_turn = at_hip(old_flexion) - at_hip(new_flexion);
     let shank_turn = exp(axis * (hip_turn + new_flexion - old_flexion)) * turn;
@@ -143,14 +198,14 @@ mod tests {
             let (thigh, shank) = solve_leg(&input, hip, input.ankle);
             let knee = hip + thigh * (input.knee - input.hip);
             let ankle = knee + shank * (input.ankle - input.knee);
-            // See ROUND_M; and a leg bent backward by 3 degrees is 0.3 mm shorter than straight.
-            assert!((ankle - input.ankle).length() < 1e-3, "{drop}: {}", (ankle - input.ankle).length());
-            flexion(&LegPose { hip, knee, ankle, knee_axis: shank * input.knee_axis })
+            assert!((ankle - input.ankle).length() < 1e-9, "{drop}: {}", (ankle - input.ankle).length());
+            (knee, flexion(&LegPose { hip, knee, ankle, knee_axis: shank * input.knee_axis }))
         };
-        let angles: Vec<f64> = (0..=1000).map(|step| bent(f64::from(step) * 1e-6)).collect();
-        assert!(angles[1000] > 0.05);
-        // Ten micrometres of hip never turn the knee by more than a degree.
-        assert!(angles.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.1f64.to_radians()));
+        assert!(bent(ROUND_M).1 > 0.05);
+        let knees: Vec<DVec3> = (0..=200).map(|step| bent(f64::from(step) * 1e-5).0).collect();
+        // Ten micrometres of hip never move the knee by more than two millimetres.
+        assert!(knees.windows(2).all(|pair| (pair[1] - pair[0]).length() < 2e-3));
+        assert!((knees[0] - input.knee).length() < 1e-9);
     }
 
     #[test]

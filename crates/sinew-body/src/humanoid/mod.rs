@@ -12,7 +12,7 @@ mod reduction;
 mod rotation;
 
 pub use body::{Body, Link, Shape};
-pub use leg::{LegPose, solve_leg};
+pub use leg::{LegPose, shift_within_reach, solve_leg};
 pub use limit::{Limit, Swing};
 pub use node::{Axis, Dof, Node, UPPER_DOFS, UPPER_NODES, upper_dofs};
 pub use overlay::{Deviation, Overlay};

@@ -5,7 +5,7 @@
 //! has them, in place and orientation, and the legs are bent to reach them. Where there is no deviation nothing is
 //! touched, not even the last bit.
 
-use super::leg::{LegPose, solve_leg};
+use super::leg::{LegPose, shift_within_reach, solve_leg};
 use super::rotation::{exp, log};
 use super::{Node, Reduction, UPPER_NODES};
 use glam::{DQuat, DVec3};
@@ -14,6 +14,12 @@ use sinew_motion::Transform;
 /// Turns below this \[rad\] and shifts below this \[m\] are no deviation: a hundredth of the last digit that a motion
 /// file prints.
 const NOTHING: f64 = 1e-10;
+
+/// Upper leg, lower leg and foot of both sides.
+const LEGS: [(Node, Node, Node); 2] = [
+    (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
+    (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
+];
 
 /// How far a body is from the input at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +132,8 @@ impl<'a> Overlay<'a> {
         mut rotated: impl FnMut(usize, DQuat),
         mut moved: impl FnMut(usize, DVec3),
     ) {
-        let turns = self.node_deltas(world, deviation);
+        let shift = self.reachable_shift(world, deviation);
+        let turns = self.node_deltas(world, deviation, shift);
         let hips = turns[Node::Hips.index()];
         let chest_against_hips = log(hips.conjugate() * turns[Node::Chest.index()]);
         let chest = turns[Node::Chest.index()];
@@ -149,7 +156,7 @@ impl<'a> Overlay<'a> {
                 self.deltas[joint] = parent_delta;
             }
         }
-        let shift = deviation.hips_shift + deviation.ground_shift;
+        let shift = shift + deviation.ground_shift;
         if shift.length() > NOTHING {
             let parent = self.reduction.parents[self.mover].map(|parent| world[parent]);
             let parent = parent.unwrap_or(Transform::IDENTITY);
@@ -158,8 +165,30 @@ impl<'a> Overlay<'a> {
         }
     }
 
+    /// The input's legs as they are in the source skeleton, which may differ by millimetres from the body's.
+    fn legs(&self, world: &[Transform], input: &[DQuat; Node::COUNT]) -> Option<[LegPose; 2]> {
+        let at = |node: Node| Some(world[self.reduction.joint(node)?].translation);
+        let leg = |(upper, lower, foot): (Node, Node, Node)| {
+            let knee_axis = input[lower.index()] * DVec3::X;
+            Some(LegPose { hip: at(upper)?, knee: at(lower)?, ankle: at(foot)?, knee_axis })
+        };
+        Some([leg(LEGS[0])?, leg(LEGS[1])?])
+    }
+
+    /// The hips' shift, given way to the source's own legs.
+    fn reachable_shift(&self, world: &[Transform], deviation: &Deviation) -> DVec3 {
+        if deviation.hips_shift == DVec3::ZERO && deviation.hips_turn == DVec3::ZERO {
+            return DVec3::ZERO;
+        }
+        let input = self.reduction.orientations(world);
+        let centre = world[self.hips_joint].translation;
+        self.legs(world, &input).map_or(deviation.hips_shift, |legs| {
+            shift_within_reach(&legs, centre, exp(deviation.hips_turn), deviation.hips_shift)
+        })
+    }
+
     /// By what every node's orientation turns in the world.
-    fn node_deltas(&self, world: &[Transform], deviation: &Deviation) -> [DQuat; Node::COUNT] {
+    fn node_deltas(&self, world: &[Transform], deviation: &Deviation, shift: DVec3) -> [DQuat; Node::COUNT] {
         let reduction = self.reduction;
         let input = reduction.orientations(world);
         let mut output = input;
@@ -178,25 +207,18 @@ impl<'a> Overlay<'a> {
                 deltas[at] = (output[at] * input[at].conjugate()).normalize();
             }
         }
-        let legs = [
-            (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
-            (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
-        ];
-        for (upper, lower, foot) in legs {
-            let at = |node: Node| reduction.carriers[node.index()].map(|carrier| world[carrier.joint].translation);
-            if let (Some(hip), Some(knee), Some(ankle)) = (at(upper), at(lower), at(foot)) {
-                let knee_axis = input[lower.index()] * DVec3::X;
-                let leg = LegPose { hip, knee, ankle, knee_axis };
-                let centre = world[self.hips_joint].translation;
-                let new_hip = if deviation.hips_turn == DVec3::ZERO && deviation.hips_shift == DVec3::ZERO {
-                    hip
-                } else {
-                    centre + deviation.hips_shift + deltas[0] * (hip - centre)
-                };
-                let (thigh, shank) = solve_leg(&leg, new_hip, ankle);
-                deltas[upper.index()] = thigh;
-                deltas[lower.index()] = shank;
-            }
+        for (leg, (upper, lower)) in
+            self.legs(world, &input).iter().flatten().zip(LEGS.map(|(upper, lower, _)| (upper, lower)))
+        {
+            let centre = world[self.hips_joint].translation;
+            let new_hip = if deviation.hips_turn == DVec3::ZERO && shift == DVec3::ZERO {
+                leg.hip
+            } else {
+                centre + shift + deltas[0] * (leg.hip - centre)
+            };
+            let (thigh, shank) = solve_leg(leg, new_hip, leg.ankle);
+            deltas[upper.index()] = thigh;
+            deltas[lower.index()] = shank;
         }
         deltas
     }

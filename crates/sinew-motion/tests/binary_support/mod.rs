@@ -29,7 +29,7 @@ pub fn world_gap(a: &Clip, b: &Clip) -> (f64, f64) {
             distance = distance.max((a.translation - b.translation).length());
             // By the sine: acos near 1 would lose half of the digits.
             let turn = a.rotation.conjugate() * b.rotation;
-            angle = angle.max(2.0 * turn.xyz().length().min(1.0).asin());
+            angle = angle.max(2.0 * libm::asin(turn.xyz().length().min(1.0)));
         }
     }
     (distance, angle)

@@ -41,7 +41,7 @@ pub fn walker(time_secs: f64, bent: f64) -> Figure {
         let step = phase + turn;
         let hip = hips + DVec3::X * side * 0.09 - DVec3::Y * 0.04;
         let knee = hip + swing(0.42 * libm::sin(step), 0.03 * side).normalize() * 0.42;
-        let bend = 0.12 + 0.85 * (0.5 + 0.5 * libm::cos(step - 0.2)).powi(2);
+        let bend = 0.12 + 0.85 * libm::pow(0.5 + 0.5 * libm::cos(step - 0.2), 2.0);
         let ankle = knee + swing(0.42 * libm::sin(step) - bend, 0.0) * 0.41;
         let toe_drop = 0.35 * libm::cos(step).max(-0.2) + 0.12;
         let ball = ankle + DVec3::new(0.015 * side, -0.045 - 0.08 * toe_drop, 0.14);

@@ -80,7 +80,7 @@ enum CoordinatesName {
 const SHOW: Push = Push {
     part: Part::LeftHand,
     point: None,
-    force_n: DVec3::new(0.0, 0.0, -150.0),
+    force_n: DVec3::new(0.0, 0.0, -120.0),
     frame: PushFrame::Facing,
     at_secs: 2.0,
     for_secs: 0.1,

@@ -55,7 +55,8 @@ impl Answer {
         notes: Vec<Note>,
     ) -> Answer {
         let clip = answered(&input, &reduction, &pushed);
-        let report = RespondReport::of(file, humanoid, job, &settings, &input, &clip, &reduction, &pushed, &unpushed);
+        let report =
+            RespondReport::of(file, humanoid, job, &settings, &input, cycle, &clip, &reduction, &pushed, &unpushed);
         Answer {
             clip,
             input: input.clip,

@@ -68,8 +68,10 @@ pub fn respond(file: &MotionFile, job: &RespondJob, basis_from: Option<&MotionFi
     let repeated = repeated(file, humanoid, cycle, job.repeat)?;
     let input = match repeated {
         Some(repeated) => {
-            let last = cycle.map_or(0, |(first, last)| last - first);
-            Input { clip: repeated.clip, rows: repeated.rows, first_frame: 0, cycle: Some((0, last)) }
+            let length = cycle.map_or(0, |(first, last)| last - first);
+            // A round in the middle: at the ends the filter has less to go by.
+            let first = job.repeat / 2 * length;
+            Input { clip: repeated.clip, rows: repeated.rows, first_frame: 0, cycle: Some((first, first + length)) }
         }
         None => Input {
             clip: file.clip.clone(),

@@ -206,7 +206,7 @@ mod tests {
                 let mut near = found.degrees;
                 near[index] += step;
                 let apart = compose(&[Axis::Z, Axis::X], &near).conjugate() * bent;
-                let apart = 2.0 * apart.xyz().length().asin();
+                let apart = 2.0 * libm::asin(apart.xyz().length());
                 assert!(apart >= found.loss_rad, "a neighbour is nearer: {apart} {found:?}");
             }
         }

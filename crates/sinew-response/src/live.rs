@@ -1,0 +1,91 @@
+//! A response on a stream.
+//!
+//! The torque that a motion uses at one instant needs the poses before and after it, twice differentiated, so it needs low-pass
+//! filtering. Over a clip that is done forward and backward, without delay. On a stream only the past is there: the filter is
+//! causal, and what it tells lags by its group delay, about 37 ms at 6 Hz. That matters little, because the response only
+//! sees by how much its own motion *differs* from the filtered one: the deviation that comes out is put on the wanted pose as
+//! it is, unfiltered and not late.
+
+use crate::basis::Basis;
+use crate::force::PointForce;
+use crate::response::{Report, Response, posed};
+use crate::settings::{CUTOFF_HZ, Settings};
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Deviation, Node, Pose};
+use sinew_motion::{LowPass, LowPassStream};
+
+/// A character that answers to pushes while it follows a live stream of poses: one [`advance`](Live::advance) a frame.
+///
+/// A force that the engine finds on the pose shown in one frame is handed in with the next wanted pose and shows in the pose
+/// returned: one frame of delay, and no more. No call allocates or panics; a pose that is not finite is replaced by the last
+/// good one.
+///
+/// ```
+/// use glam::DVec3;
+/// use sinew_body::humanoid::{Body, Node, Pose};
+/// use sinew_response::{Basis, Live, PointForce, Settings};
+///
+/// let settings = Settings::default();
+/// let body = Body::standard(80.0, 1.7);
+/// // A stream has no clip to measure: the basis comes from a take of the performer, or from any clip of the kind.
+/// let basis = Basis::of_motion(&body, &vec![Pose::STANDING; 60], &settings)?;
+/// let mut live = Live::new(body, basis, settings, &Pose::STANDING);
+/// for _frame in 0..10 {
+///     let wanted = Pose::STANDING; // from the capture system
+///     let shown = live.advance(&wanted, &[PointForce::at_centre(Node::Head, DVec3::X * 50.0)]);
+///     assert!(shown.is_finite());
+/// }
+/// # Ok::<(), sinew_response::BasisError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Live {
+    response: Response,
+    hips: LowPassStream<3>,
+    joints: [LowPassStream<4>; Node::COUNT],
+    last: Pose,
+}
+
+impl Live {
+    /// A stream that begins at rest in `first`.
+    pub fn new(body: Body, basis: Basis, settings: Settings, first: &Pose) -> Live {
+        let filter = LowPass::new(CUTOFF_HZ, 1.0 / settings.time_step_secs);
+        Live {
+            response: Response::new(body, basis, settings, first),
+            hips: LowPassStream::new(filter),
+            joints: std::array::from_fn(|_| LowPassStream::new(filter)),
+            last: *first,
+        }
+    }
+
+    /// Advances one frame: `wanted` is the stream's new pose, `forces` those found on the pose returned last.
+    pub fn advance(&mut self, wanted: &Pose, forces: &[PointForce]) -> Pose {
+        self.advance_on_moving_ground(wanted, forces, DVec3::ZERO)
+    }
+
+    /// As [`Live::advance`], on ground that accelerates \[m/s², world\].
+    pub fn advance_on_moving_ground(&mut self, wanted: &Pose, forces: &[PointForce], ground: DVec3) -> Pose {
+        if wanted.is_finite() {
+            self.last = *wanted;
+        }
+        let wanted = self.last;
+        let smooth = self.filtered(&wanted);
+        self.response.step_on_moving_ground(&smooth, forces, ground);
+        posed(self.response.body(), &wanted, &self.response.deviation())
+    }
+
+    /// How far the pose given out last is from the wanted one, see [`Response::deviation`].
+    pub fn deviation(&self) -> Deviation {
+        self.response.deviation()
+    }
+
+    /// What the last step did.
+    pub fn report(&self) -> Report {
+        self.response.report()
+    }
+
+    fn filtered(&mut self, wanted: &Pose) -> Pose {
+        let position = self.hips.step_vector(wanted.hips_position);
+        let locals = Node::ALL.map(|node| self.joints[node.index()].step_rotation(wanted.local(node)));
+        Pose::from_locals(position, &locals)
+    }
+}

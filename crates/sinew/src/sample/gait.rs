@@ -1,0 +1,406 @@
+//! The walk as functions of the phase: how the mean walk's angles become legs that stand.
+//!
+//! Three steps. (1) The measured angles alone move the hips: whichever foot stands, its point of contact (heel, sole, ball) is
+//! held still, and the hips go where the leg then puts them; while both stand, the weight goes smoothly from one to the
+//! other. The result is smoothed to harmonics, which a symmetric walk has in even or odd numbers only. (2) A standing foot
+//! gets a place on the floor and rolls there, over the heel's ball, the sole and the ball of the foot; the leg reaches
+//! its ankle by two-bone inverse kinematics, a matter of a centimetre or two. (3) A swinging foot takes its measured path, bent by
+//! polynomials of fifth degree so that it leaves and lands at the standing foot's place, speed and change of speed.
+//!
+//! Everything is told for the left leg. The right one is its mirror image half a stride later.
+
+use super::frame::Frame;
+use super::series::{Jet, Series, Waves, project, quintic, smooth_step};
+use super::walk_table::MEAN_WALK_DEG;
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{LegPose, Node, exp, log, solve_leg};
+
+/// Phase at which the left heel lands: feet land a few hundredths of a stride after they are farthest ahead.
+const LANDS: f64 = 0.055;
+/// Phase at which the sole is flat.
+const FLAT: f64 = 0.15;
+/// Phases between which the heel begins to rise.
+const RISES: [f64; 2] = [0.30, 0.48];
+/// Phase at which the tip of the toes leaves the floor; the other foot has landed at 0.555.
+const LEAVES: f64 = 0.63;
+/// Phases between which the foot would roll over the tip of its toes, and how far \[rad\], if it did not leave before: the
+/// measured feet rise by 3 cm more than a foot that turns about its ball.
+const OVER_TOES: ([f64; 2], f64) = ([0.51, 0.70], 0.6);
+/// Phase at which the toes, bent by the push, are relaxed, and their bend then \[rad\].
+const RELAXED: (f64, f64) = (0.82, -0.12);
+/// A foot leaves for its measured path, and comes from it to its place, within this \[strides\].
+const FADE: f64 = 0.2;
+/// Phases looked at for the path of the hips.
+const SAMPLES: usize = 128;
+/// How far the foot turns out while it stands \[rad\]: 6°, usual for adults.
+const TOE_OUT_RAD: f64 = 0.105;
+/// The toes are bent up by this share of the foot's own angle when it lands on the heel.
+const TOES_UP: f64 = 0.4;
+/// Least bend of a knee that a leg is left with \[rad\]: 9°. The mean walk's own least is 12°, and the straighter a knee, the
+/// harder it turns for a millimetre that its ankle is moved.
+const LEAST_FLEXION_RAD: f64 = 0.16;
+/// Least height of a swinging foot's lowest point above the floor in mid swing, in a 1.70 m body \[m\].
+const CLEARANCE_M: f64 = 0.010;
+/// Step of difference quotients \[strides\].
+const STEP: f64 = 1e-3;
+
+/// A symmetric walk of a body, by phase.
+#[derive(Clone, Debug)]
+pub(super) struct Gait {
+    pub frame: Frame,
+    /// Swing of the angles relative to the mean walk's.
+    gain: f64,
+    pub stride_m: f64,
+    /// The hips beside their even progress \[m\]: left, up, forward.
+    path: [Series; 3],
+    /// Left ankle while flat \[m\].
+    plant: DVec3,
+    /// What the swinging left foot's ankle \[m\] and turn \[rad\] differ by from the measured, at its start and end.
+    swing: [[Jet<DVec3>; 2]; 2],
+    /// The toes' bend \[rad\], likewise.
+    toes: [Jet<f64>; 2],
+    /// How much the foot is lifted in mid swing \[m\].
+    lift_m: f64,
+}
+
+/// The measured left leg from the hips' origin, axes of the world.
+struct Leg {
+    thigh: DQuat,
+    shank: DQuat,
+    foot: DQuat,
+    hip: DVec3,
+    knee: DVec3,
+    ankle: DVec3,
+}
+
+/// A leg as it is shown: `world_from_node` of its bodies, the bend of the toes, the ankle's place in the world.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShownLeg {
+    pub thigh: DQuat,
+    pub shank: DQuat,
+    pub foot: DQuat,
+    pub toes: DQuat,
+    pub ankle: DVec3,
+}
+
+/// The mirror image of a turn, left for right.
+pub(super) fn mirrored(rotation: DQuat) -> DQuat {
+    DQuat::from_xyzw(rotation.x, -rotation.y, -rotation.z, rotation.w)
+}
+
+/// How much a node's swing grows with the stride. A longer stride opens the hips and swings the arms; knees and ankles must
+/// clear the floor in any stride and change half as much.
+fn node_gain(node: Node, gain: f64) -> f64 {
+    match node {
+        Node::LeftLowerLeg | Node::LeftFoot => 0.5 + 0.5 * gain,
+        Node::Neck | Node::Head | Node::LeftShoulder | Node::LeftHand => 1.0,
+        _ => gain,
+    }
+}
+
+/// The node's row in the table.
+fn row(node: Node) -> &'static [Series; 3] {
+    let at = match node {
+        Node::LeftUpperLeg => 8,
+        Node::LeftLowerLeg => 9,
+        Node::LeftFoot => 10,
+        other => other.index().min(7),
+    };
+    &MEAN_WALK_DEG[at]
+}
+
+/// `parent_from_node` of a midline or left node.
+fn measured(node: Node, waves: &Waves, gain: f64) -> DQuat {
+    let gain = node_gain(node, gain);
+    exp(DVec3::from_array(row(node).each_ref().map(|series| waves.value(series, gain).to_radians())))
+}
+
+fn measured_leg(frame: &Frame, phase: f64, gain: f64) -> Leg {
+    let waves = Waves::at(phase);
+    let hips = measured(Node::Hips, &waves, gain);
+    let thigh = hips * measured(Node::LeftUpperLeg, &waves, gain);
+    let shank = thigh * measured(Node::LeftLowerLeg, &waves, gain);
+    let foot = shank * measured(Node::LeftFoot, &waves, gain);
+    let offset = |node: Node| frame.body.link(node).offset;
+    let hip = hips * offset(Node::LeftUpperLeg);
+    let knee = hip + thigh * offset(Node::LeftLowerLeg);
+    Leg { thigh, shank, foot, hip, knee, ankle: knee + shank * offset(Node::LeftFoot) }
+}
+
+/// How a foot stands: how far it points down, and how far its toes do \[rad\].
+#[derive(Clone, Copy)]
+struct Roll {
+    foot: f64,
+    /// While the foot stands on its heel, they are bent up and this is not used.
+    toes: f64,
+}
+
+impl Roll {
+    /// Turn of the toes against the foot.
+    fn bend(self) -> f64 {
+        if self.foot < 0.0 { TOES_UP * self.foot } else { self.toes - self.foot }
+    }
+}
+
+/// How the left foot rolls while it stands.
+fn roll(frame: &Frame, phase: f64, gain: f64) -> Roll {
+    let forward = measured_leg(frame, phase, gain).foot * DVec3::Z;
+    let down = libm::atan2(-forward.y, (forward.x * forward.x + forward.z * forward.z).sqrt());
+    let toes = OVER_TOES.1 * smooth_step(OVER_TOES.0[0], OVER_TOES.0[1], phase);
+    if phase < 0.5 * (FLAT + RISES[0]) {
+        Roll { foot: down * (1.0 - smooth_step(LANDS, FLAT, phase)), toes }
+    } else {
+        Roll { foot: down * smooth_step(RISES[0], RISES[1], phase), toes }
+    }
+}
+
+/// The standing left foot's turn, and its ankle relative to where it is while flat.
+fn standing(frame: &Frame, roll: Roll) -> (DQuat, DVec3) {
+    let heading = exp(DVec3::Y * TOE_OUT_RAD);
+    let turn = heading * exp(DVec3::X * roll.foot);
+    let foot = &frame.foot;
+    // The heel rolls as a ball does; then the toes turn about their tip, and the foot about its ball.
+    let (pivot, moved) = if roll.foot < 0.0 {
+        (foot.heel, DVec3::Z * (foot.heel_radius_m * roll.foot))
+    } else {
+        (foot.ball, foot.toe_tip - exp(DVec3::X * roll.toes) * foot.toe_tip)
+    };
+    (turn, heading * (pivot + moved) - turn * pivot)
+}
+
+/// How much of the weight the left foot carries.
+fn weight(phase: f64) -> f64 {
+    let phase = phase - (phase - LANDS).floor();
+    smooth_step(LANDS, LEAVES - 0.5, phase) - smooth_step(LANDS + 0.5, LEAVES, phase)
+}
+
+fn jet<V>(value: impl Fn(f64) -> V, at: f64) -> Jet<V>
+where
+    V: Copy + std::ops::Add<Output = V> + std::ops::Sub<Output = V> + std::ops::Mul<f64, Output = V>,
+{
+    let (before, here, after) = (value(at - STEP), value(at), value(at + STEP));
+    [here, (after - before) * (0.5 / STEP), here * 0.0]
+}
+
+/// The hips' path that the standing feet dictate: stride \[m\] and the series beside the even progress.
+fn path(frame: &Frame, gain: f64) -> (f64, [Series; 3]) {
+    // From the hips to the foot's place on the floor.
+    let held = |phase: f64| standing(frame, roll(frame, phase, gain)).1 - measured_leg(frame, phase, gain).ankle;
+    let at = |index: usize| index as f64 / SAMPLES as f64;
+    // One foot's share of the hips' speed, and of their height.
+    let shares: Vec<(DVec3, f64)> = (0..SAMPLES)
+        .map(|index| {
+            let phase = at(index);
+            let weight = weight(phase);
+            if weight == 0.0 {
+                return (DVec3::ZERO, 0.0);
+            }
+            let [place, speed, _] = jet(held, phase);
+            (speed * weight, (place.y + frame.foot.ankle_m) * weight)
+        })
+        .collect();
+    let both = |value: &dyn Fn(&(DVec3, f64)) -> f64, mirror: f64| -> Vec<f64> {
+        (0..SAMPLES).map(|i| value(&shares[i]) + mirror * value(&shares[(i + SAMPLES / 2) % SAMPLES])).collect()
+    };
+    let integral = |speeds: Series| {
+        let mut path = [0.0; 11];
+        for k in 1..=super::series::ORDER {
+            let rate = std::f64::consts::TAU * k as f64;
+            (path[2 * k - 1], path[2 * k]) = (-speeds[2 * k] / rate, speeds[2 * k - 1] / rate);
+        }
+        path
+    };
+    let sideways = project(&both(&|share| share.0.x, -1.0), |harmonic| harmonic % 2 == 1 && harmonic < 4);
+    let height = project(&both(&|share| share.1, 1.0), |harmonic| harmonic % 2 == 0);
+    let forward = project(&both(&|share| share.0.z, 1.0), |harmonic| harmonic % 2 == 0);
+    (forward[0], [integral(sideways), height, integral(forward)])
+}
+
+impl Gait {
+    /// The gain at which the mean walk makes a stride of this length; `None` when none in reach does.
+    pub fn gain_for(frame: &Frame, stride_m: f64) -> Option<f64> {
+        let (mut low, mut high) = (0.3, 1.7);
+        if !(path(frame, low).0..=path(frame, high).0).contains(&stride_m) {
+            return None;
+        }
+        // Strides grow with the gain. 40 halvings end below 1e-11.
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if path(frame, middle).0 < stride_m { low = middle } else { high = middle }
+        }
+        Some(0.5 * (low + high))
+    }
+
+    pub fn new(frame: Frame, gain: f64) -> Gait {
+        let (stride_m, path) = path(&frame, gain);
+        let mut gait = Gait {
+            frame,
+            gain,
+            stride_m,
+            path,
+            plant: DVec3::ZERO,
+            swing: [[[DVec3::ZERO; 3]; 2]; 2],
+            toes: [[0.0; 3]; 2],
+            lift_m: 0.0,
+        };
+        gait.plant = gait.find_plant();
+        // Lower hips change the way of the swinging foot a little, so it is looked at again.
+        for _ in 0..4 {
+            gait.meet_the_floor();
+            gait.path[1][0] -= gait.overreach();
+        }
+        gait.meet_the_floor();
+        gait.lift_m = gait.needed_lift();
+        gait
+    }
+
+    /// The hips' place \[m\] at a phase that may be of any stride.
+    pub fn hips(&self, phase: f64) -> DVec3 {
+        let waves = Waves::at(phase);
+        let [x, y, z] = self.path.each_ref().map(|series| waves.value(series, 1.0));
+        DVec3::new(x, y, z + self.stride_m * phase)
+    }
+
+    /// `parent_from_node` of the hips, the upper body and the left leg, as measured.
+    pub fn measured(&self, node: Node, phase: f64) -> DQuat {
+        measured(node, &Waves::at(phase), self.gain)
+    }
+
+    fn measured_ankle(&self, phase: f64) -> DVec3 {
+        self.hips(phase) + measured_leg(&self.frame, phase, self.gain).ankle
+    }
+
+    fn standing_ankle(&self, phase: f64) -> DVec3 {
+        self.plant + standing(&self.frame, roll(&self.frame, phase, self.gain)).1
+    }
+
+    /// From the measured foot's turn to the standing one's \[rad\].
+    fn standing_error(&self, phase: f64) -> DVec3 {
+        let turn = standing(&self.frame, roll(&self.frame, phase, self.gain)).0;
+        log(turn * measured_leg(&self.frame, phase, self.gain).foot.conjugate())
+    }
+
+    fn standing_toes(&self, phase: f64) -> f64 {
+        roll(&self.frame, phase, self.gain).bend()
+    }
+
+    /// Where the left foot stands: where the measured leg holds it in the mean over its stance.
+    fn find_plant(&self) -> DVec3 {
+        let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+        for index in 0..SAMPLES {
+            let phase = LANDS + (LEAVES - LANDS) * (index as f64 + 0.5) / SAMPLES as f64;
+            let weight = weight(phase);
+            sum += (self.measured_ankle(phase) - self.standing_ankle(phase)) * weight;
+            weights += weight;
+        }
+        let mean = sum / weights;
+        DVec3::new(mean.x, self.frame.foot.ankle_m, mean.z)
+    }
+
+    /// Joins the swing to the stance at both of its ends.
+    fn meet_the_floor(&mut self) {
+        let ends = [LEAVES, LANDS].map(|phase| {
+            let ankle = jet(|phase| self.standing_ankle(phase) - self.measured_ankle(phase), phase);
+            let turn = jet(|phase| self.standing_error(phase), phase);
+            (ankle, turn)
+        });
+        self.swing = [[ends[0].0, ends[1].0], [ends[0].1, ends[1].1]];
+        self.toes = [LEAVES, LANDS].map(|phase| jet(|phase| self.standing_toes(phase), phase));
+    }
+
+    /// How far the hips must come down for the left leg to reach its ankle with a bent knee \[m\].
+    fn overreach(&self) -> f64 {
+        let length = |node: Node| self.frame.body.link(node).offset.length();
+        let (thigh, shank) = (length(Node::LeftLowerLeg), length(Node::LeftFoot));
+        let longest_squared = thigh * thigh + shank * shank + 2.0 * thigh * shank * libm::cos(LEAST_FLEXION_RAD);
+        (0..2 * SAMPLES)
+            .map(|index| {
+                let phase = LANDS + index as f64 / (2 * SAMPLES) as f64;
+                let hip = self.hips(phase) + measured_leg(&self.frame, phase, self.gain).hip;
+                let away = hip - self.left_leg(phase).ankle;
+                let level = away.x * away.x + away.z * away.z;
+                away.y - (longest_squared - level).max(0.0).sqrt()
+            })
+            .fold(0.0, f64::max)
+    }
+
+    /// The left leg at a phase that may be of any stride.
+    pub fn left_leg(&self, phase: f64) -> ShownLeg {
+        let stride = (phase - LANDS).floor();
+        let local = phase - stride;
+        let leg = measured_leg(&self.frame, local, self.gain);
+        let hips = self.hips(local);
+        let (ankle, foot, bend) = if local <= LEAVES {
+            let (foot, moved) = standing(&self.frame, roll(&self.frame, local, self.gain));
+            (self.plant + moved, foot, self.standing_toes(local))
+        } else {
+            let span = 1.0 + LANDS - LEAVES;
+            let t = (local - LEAVES) / span;
+            let between = |ends: &[Jet<DVec3>; 2]| {
+                let none = [DVec3::ZERO; 3];
+                if local < LEAVES + FADE {
+                    quintic(&ends[0], &none, FADE, (local - LEAVES) / FADE)
+                } else {
+                    quintic(&none, &ends[1], FADE, ((local - 1.0 - LANDS) / FADE + 1.0).max(0.0))
+                }
+            };
+            let ankle = hips + leg.ankle + between(&self.swing[0]) + DVec3::Y * (self.lift_m * lift(t));
+            let foot = exp(between(&self.swing[1])) * leg.foot;
+            (ankle, foot, self.swinging_toes(local))
+        };
+        let input = LegPose {
+            hip: hips + leg.hip,
+            knee: hips + leg.knee,
+            ankle: hips + leg.ankle,
+            knee_axis: leg.shank * DVec3::X,
+        };
+        let (thigh_turn, shank_turn) = solve_leg(&input, input.hip, ankle);
+        let forward = DVec3::Z * (self.stride_m * stride);
+        ShownLeg {
+            thigh: thigh_turn * leg.thigh,
+            shank: shank_turn * leg.shank,
+            foot,
+            toes: exp(DVec3::X * bend),
+            ankle: ankle + forward,
+        }
+    }
+
+    fn swinging_toes(&self, phase: f64) -> f64 {
+        let relaxed = [RELAXED.1, 0.0, 0.0];
+        let (start, end, from, to) = if phase < RELAXED.0 {
+            (&self.toes[0], &relaxed, LEAVES, RELAXED.0)
+        } else {
+            (&relaxed, &self.toes[1], RELAXED.0, 1.0 + LANDS)
+        };
+        quintic(start, end, to - from, (phase - from) / (to - from))
+    }
+
+    /// Height of the left foot's lowest point above the floor \[m\].
+    pub fn left_clearance(&self, phase: f64) -> f64 {
+        let leg = self.left_leg(phase);
+        let foot = &self.frame.foot;
+        let ball = leg.ankle + leg.foot * foot.ball;
+        let tip = ball + leg.foot * (leg.toes * foot.toe_tip);
+        let heel = leg.ankle + leg.foot * foot.heel;
+        // The toes' joint stands as high above the floor as their tip hangs below it.
+        (heel.y - foot.heel_radius_m).min(ball.y + foot.toe_tip.y).min(tip.y)
+    }
+
+    fn needed_lift(&self) -> f64 {
+        let span = 1.0 + LANDS - LEAVES;
+        (1..SAMPLES)
+            .map(|index| {
+                let t = index as f64 / SAMPLES as f64;
+                let needed = CLEARANCE_M * self.frame.scale * lift(t) - self.left_clearance(LEAVES + span * t);
+                // Close to the floor's own moments no lift helps; the foot is above it there by its speed.
+                if lift(t) > 0.2 { needed / lift(t) } else { 0.0 }
+            })
+            .fold(0.0, f64::max)
+    }
+}
+
+/// The shape of a lift over the swing: none at either end, nor speed or change of speed there.
+fn lift(t: f64) -> f64 {
+    let bow = 4.0 * t * (1.0 - t);
+    bow * bow * bow
+}

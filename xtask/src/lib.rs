@@ -1,0 +1,7 @@
+//! The project's own chores. `cargo xtask check` is what contributors and CI run before a change goes in.
+
+pub mod check;
+pub mod command;
+pub mod page;
+pub mod readme;
+pub mod repository;
