@@ -7,7 +7,7 @@
 
 use crate::force::PointForce;
 use glam::DVec3;
-use sinew_body::humanoid::{Body, LegPose, Node, Pose, exp, shift_within_reach, solve_leg};
+use sinew_body::humanoid::{Body, LEGS, LegPose, Pose, exp, shift_within_reach, solve_leg};
 
 /// Frequency of the return \[rad/s\].
 const RETURN: f64 = 5.0;
@@ -72,9 +72,14 @@ impl HipsState {
         }
     }
 
+    /// Whether the hips are away from the input at all.
+    pub(crate) fn departs(&self) -> bool {
+        self.shift != DVec3::ZERO || self.turn != DVec3::ZERO
+    }
+
     /// What is shown on the input's pose: saturated, and within reach of the input's ankles.
     pub(crate) fn shown(&self, body: &Body, input: &Pose) -> HipsDeviation {
-        if self.shift == DVec3::ZERO && self.turn == DVec3::ZERO {
+        if !self.departs() {
             return HipsDeviation::default();
         }
         let saturated = |vector: DVec3, limit: f64| {
@@ -108,18 +113,12 @@ struct Legs {
     legs: [LegPose; 2],
 }
 
-/// Upper leg, lower leg and foot of both sides.
-const LEGS: [[Node; 3]; 2] = [
-    [Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot],
-    [Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot],
-];
-
 impl Legs {
     fn of(body: &Body, input: &Pose) -> Legs {
         let positions = input.positions(body);
-        let legs = LEGS.map(|leg| {
-            let [hip, knee, ankle] = leg.map(|node| positions[node.index()]);
-            LegPose { hip, knee, ankle, knee_axis: input.world[leg[1].index()] * DVec3::X }
+        let legs = LEGS.map(|(upper, lower, foot)| {
+            let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
+            LegPose { hip, knee, ankle, knee_axis: input.world[lower.index()] * DVec3::X }
         });
         Legs { hips: positions[0], legs }
     }
@@ -134,7 +133,7 @@ impl Legs {
     fn are_within_limits(&self, body: &Body, input: &Pose, shown: &HipsDeviation) -> bool {
         let turn = exp(shown.turn);
         let hips = turn * input.world[0];
-        self.legs.iter().zip(LEGS).all(|(leg, [upper, lower, foot])| {
+        self.legs.iter().zip(LEGS).all(|(leg, (upper, lower, foot))| {
             let hip = self.hips + shown.shift + turn * (leg.hip - self.hips);
             let (thigh_turn, shank_turn) = solve_leg(leg, hip, leg.ankle);
             let thigh = thigh_turn * input.world[upper.index()];

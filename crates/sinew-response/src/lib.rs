@@ -20,7 +20,7 @@
 //! let mut response = Response::new(body, basis, settings, &Pose::STANDING);
 //!
 //! let push = PointForce::at_centre(Node::LeftHand, DVec3::new(0.0, 0.0, -100.0));
-//! for frame in 0..30 {
+//! for frame in 0..10 {
 //!     let forces = if frame < 6 { &[push][..] } else { &[] };
 //!     let pose = response.step(&Pose::STANDING, forces);
 //!     assert!(pose.is_finite());

@@ -1,11 +1,11 @@
 //! Which joints meet their limits, without trigonometry for those that are clearly inside.
 
 use glam::DQuat;
-use sinew_body::humanoid::{Body, Limit, Node, Pose, UPPER_NODES};
+use sinew_body::humanoid::{Body, Limit, Node, UPPER_NODES};
 
-/// The limits of all joints, prepared.
+/// The limits of the upper body's joints, prepared.
 #[derive(Clone, Debug)]
-pub(crate) struct Limits([Near; Node::COUNT]);
+pub(crate) struct Limits([Near; UPPER_NODES]);
 
 /// A limit in a form that is cheap to compare with.
 #[derive(Clone, Copy, Debug)]
@@ -29,17 +29,15 @@ impl Limits {
         self.0[node].surely_contains(local) || body.link(Node::ALL[node]).limit.contains(local)
     }
 
-    /// Widens the body's limits to contain a pose, of which the upper nodes' `parent_from_node` are known.
-    pub(crate) fn widen(&mut self, body: &mut Body, pose: &Pose, upper: &[DQuat; UPPER_NODES]) {
-        for (at, near) in self.0.iter_mut().enumerate().skip(1) {
-            let node = Node::ALL[at];
-            let local = upper.get(at).copied().unwrap_or_else(|| pose.local(node));
-            if near.surely_contains(local) {
+    /// Widens the body's limits to contain a pose's `parent_from_node` rotations.
+    pub(crate) fn widen(&mut self, body: &mut Body, locals: &[DQuat; UPPER_NODES]) {
+        for (node, near) in self.0.iter_mut().enumerate().skip(1) {
+            if near.surely_contains(locals[node]) {
                 continue;
             }
-            let limit = &mut body.link_mut(node).limit;
-            if !limit.contains(local) {
-                limit.widen(local);
+            let limit = &mut body.link_mut(Node::ALL[node]).limit;
+            if !limit.contains(locals[node]) {
+                limit.widen(locals[node]);
                 *near = Near::of(limit);
             }
         }
@@ -92,7 +90,7 @@ mod tests {
         let limits = Limits::of(&body);
         let mut sure = 0;
         let mut inside = 0;
-        for node in 1..Node::COUNT {
+        for node in 1..UPPER_NODES {
             let limit = body.link(Node::ALL[node]).limit;
             for step in 0..20_000 {
                 // A lattice that fills the ball of rotations.
@@ -112,18 +110,14 @@ mod tests {
     fn a_widened_limit_contains_what_widened_it() {
         let mut body = Body::standard(80.0, 1.7);
         let mut limits = Limits::of(&body);
-        let mut locals = [DQuat::IDENTITY; Node::COUNT];
-        let far = [Node::LeftHand, Node::RightFoot];
-        for node in far {
-            locals[node.index()] = exp(DVec3::new(2.0, 1.0, -0.5));
-        }
-        let pose = Pose::from_locals(DVec3::ZERO, &locals);
+        let mut locals = [DQuat::IDENTITY; UPPER_NODES];
+        locals[Node::LeftHand.index()] = exp(DVec3::new(2.0, 1.0, -0.5));
         let contains = |limits: &Limits, body: &Body| {
-            far.map(|node| limits.contains(body, node.index(), pose.local(node)))
+            limits.contains(body, Node::LeftHand.index(), locals[Node::LeftHand.index()])
         };
-        assert_eq!(contains(&limits, &body), [false; 2]);
-        limits.widen(&mut body, &pose, &crate::upper_body::locals(&pose));
-        assert_eq!(contains(&limits, &body), [true; 2]);
-        assert!(far.iter().all(|&node| body.link(node).limit.contains(pose.local(node))));
+        assert!(!contains(&limits, &body));
+        limits.widen(&mut body, &locals);
+        assert!(contains(&limits, &body));
+        assert!(body.link(Node::LeftHand).limit.contains(locals[Node::LeftHand.index()]));
     }
 }

@@ -8,7 +8,7 @@
 
 use crate::basis::Basis;
 use crate::force::PointForce;
-use crate::response::{Report, Response, posed};
+use crate::response::{Report, Response};
 use crate::settings::{CUTOFF_HZ, Settings};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Deviation, Node, Pose};
@@ -70,7 +70,7 @@ impl Live {
         let wanted = self.last;
         let smooth = self.filtered(&wanted);
         self.response.step_on_moving_ground(&smooth, forces, ground);
-        posed(self.response.body(), &wanted, &self.response.deviation())
+        wanted.deviated(self.response.body(), &self.response.deviation())
     }
 
     /// How far the pose given out last is from the wanted one, see [`Response::deviation`].

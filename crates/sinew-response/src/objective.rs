@@ -20,9 +20,9 @@
 //! L⁻¹R takes the place of R.
 
 use crate::solve::{Factor, dot};
-use std::ops::Range;
 use sinew_body::dynamics::{Real, Tree};
 use sinew_body::humanoid::UPPER_DOFS;
+use std::ops::Range;
 
 const N: usize = UPPER_DOFS;
 

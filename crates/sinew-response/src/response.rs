@@ -8,9 +8,9 @@ use crate::limits::Limits;
 use crate::objective::{Frame, Objective, Weighing};
 use crate::settings::{REFERENCE_MASS_KG, REFLEX_SECS, Settings, Weights};
 use crate::torque::{Differences, world_turn};
-use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, locals, to_coordinates, to_vectors};
+use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Deviation, LegPose, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log, solve_leg};
+use sinew_body::humanoid::{Body, Deviation, LEGS, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log};
 
 /// A jump of the push's generalised force by more than this is a new perturbation \[N m for an 80 kg body\].
 const STARTLE_N_M: f64 = 1.0;
@@ -25,8 +25,8 @@ const FASTEST: f64 = 40.0;
 /// Halvings that find where a joint meets its limit: to 1e-5 of the way.
 const LIMIT_HALVINGS: usize = 17;
 
-/// A deviation that is nowhere larger, and does not grow by more in a step, is forgotten \[rad\]: nobody sees it, and a body
-/// at rest on its input costs a fraction.
+/// A deviation that is nowhere larger, and does not grow by more in a step, is forgotten \[rad\]: nobody sees it, and the
+/// body is on its input exactly again.
 const FORGOTTEN: f64 = 1e-12;
 
 /// A character that answers to pushes while it follows a motion: one [`step`](Response::step) a frame.
@@ -104,17 +104,6 @@ impl State {
             since_push: None,
         }
     }
-
-    /// Whether the pose given out is the input's, and so was the one before.
-    fn follows_exactly(&self) -> bool {
-        self.deviation == [0.0; UPPER_DOFS]
-            && self.ground == DVec3::ZERO
-            && self.ground_before == DVec3::ZERO
-            && self.step == self.input.step
-            && self.hips_before == self.input.hips_before
-            && self.hips_turn == self.input.hips_turn
-            && self.output == self.input.pose
-    }
 }
 
 impl Response {
@@ -164,26 +153,19 @@ impl Response {
         let state = &mut self.state;
         let next = state.input.followed_by(if wanted.is_finite() { wanted } else { &state.input.pose });
         let ground = if ground.is_finite() { ground.clamp_length_max(1e3) } else { DVec3::ZERO };
-        self.limits.widen(&mut self.body, &next.pose, &next.local);
+        self.limits.widen(&mut self.body, &next.local);
         let dt = self.settings.time_step_secs;
 
         state.hips.advance(&self.body, &state.output, forces, dt);
+        if state.hips.departs() {
+            for node in LEGS.into_iter().flat_map(|(upper, lower, foot)| [upper, lower, foot]) {
+                self.body.link_mut(node).limit.widen(next.pose.local(node));
+            }
+        }
         let shown = state.hips.shown(&self.body, &next.pose);
         // The input's torque now.
-        let aim = if self.weights.aims_at_input {
-            state.input.torque(&next, &mut self.upper, dt)
-        } else {
-            [0.0; UPPER_DOFS]
-        };
-        let undisturbed = forces.is_empty() && ground == DVec3::ZERO && shown == HipsDeviation::default();
-        let aims_at_rest = self.weights.aims_at_input && self.weights.damps_relative;
-        if undisturbed && aims_at_rest && state.is_calm(dt) && state.follows_exactly() {
-            // The optimisation's right side is zero, and so is its solution.
-            state.reflex(&[0.0; UPPER_DOFS], ground, self.mass_kg, dt);
-            state.torque_before = Some(aim);
-            self.report = Report::default();
-            return state.follow(next);
-        }
+        let aim =
+            if self.weights.aims_at_input { state.input.torque(&next, &mut self.upper, dt) } else { [0.0; UPPER_DOFS] };
 
         self.report = self.respond(next, forces, ground, shown, &aim);
         self.state.output
@@ -284,8 +266,7 @@ impl Response {
         (state.ground_before, state.ground) = (state.ground, ground_next);
         state.shown = shown;
         state.torque_before = Some(torque_now);
-        let deviation = state.shown_deviation();
-        state.output = posed_on(body, &next.pose, &next.local, &state.turned, &deviation);
+        state.output = posed(body, &next, &state.turned, &shown, ground_next);
         state.input = next;
         report
     }
@@ -293,7 +274,12 @@ impl Response {
     /// How far the pose given out last is from the wanted one, for [`Overlay`](sinew_body::humanoid::Overlay). Shifts are in
     /// metres of the body.
     pub fn deviation(&self) -> Deviation {
-        self.state.shown_deviation()
+        Deviation {
+            hips_shift: self.state.shown.shift,
+            hips_turn: self.state.shown.turn,
+            ground_shift: self.state.ground,
+            turns: to_vectors(&self.state.deviation),
+        }
     }
 
     /// What the last step did.
@@ -316,11 +302,9 @@ impl Response {
         let state = &mut self.state;
         let growth = to_vectors(last_growth);
         state.turned = to_vectors(deviation).map(exp);
-        state.step =
-            std::array::from_fn(|node| state.turned[node].conjugate() * state.input.step[node] + growth[node]);
+        state.step = std::array::from_fn(|node| state.turned[node].conjugate() * state.input.step[node] + growth[node]);
         state.deviation = *deviation;
-        let Input { pose, local, .. } = &state.input;
-        state.output = posed_on(&self.body, pose, local, &state.turned, &Deviation::NONE);
+        state.output = posed(&self.body, &state.input, &state.turned, &HipsDeviation::default(), DVec3::ZERO);
         state.torque_before = None;
     }
 
@@ -334,34 +318,6 @@ impl Response {
 }
 
 impl State {
-    /// How far the pose given out is from the input's.
-    fn shown_deviation(&self) -> Deviation {
-        Deviation {
-            hips_shift: self.shown.shift,
-            hips_turn: self.shown.turn,
-            ground_shift: self.ground,
-            turns: to_vectors(&self.deviation),
-        }
-    }
-
-    /// Whether nothing has happened to the body for longer than the reflex delay.
-    fn is_calm(&self, dt: f64) -> bool {
-        self.load_before == [0.0; UPPER_DOFS]
-            && self.ground_acceleration == DVec3::ZERO
-            && self.since_push.is_none_or(|since| since + 1 >= reflex_frames(dt))
-    }
-
-    /// Takes the input's next pose as it is.
-    fn follow(&mut self, next: Input) -> Pose {
-        self.hips_before = next.hips_before;
-        self.hips_turn = next.hips_turn;
-        self.step = next.step;
-        self.shown = HipsDeviation::default();
-        self.output = next.pose;
-        self.input = next;
-        self.output
-    }
-
     /// The fading weight of the reflex delay (EQ5), counted in whole frames: 1 in the frame of a perturbation. A new
     /// perturbation counts once the old one's delay is over; a lasting contact is only one.
     fn reflex(&mut self, load: &Coordinates24, ground: DVec3, mass_kg: f64, dt: f64) -> f64 {
@@ -423,46 +379,25 @@ fn reined_in(limit: &Limit, local: DQuat, deviation: DVec3) -> DVec3 {
     deviation * inside
 }
 
-/// The wanted pose with a deviation on it, feet where the wanted pose has them.
-pub(crate) fn posed(body: &Body, wanted: &Pose, deviation: &Deviation) -> Pose {
-    posed_on(body, wanted, &locals(wanted), &deviation.turns.map(exp), deviation)
-}
-
-/// As [`posed`], from the wanted pose's `parent_from_node` and the rotations that the deviation makes of them.
-fn posed_on(
-    body: &Body,
-    wanted: &Pose,
-    local: &[DQuat; UPPER_NODES],
-    turned: &[DQuat; UPPER_NODES],
-    deviation: &Deviation,
-) -> Pose {
-    let Deviation { hips_shift, hips_turn, ground_shift, .. } = *deviation;
-    let mut pose = *wanted;
-    pose.hips_position += hips_shift + ground_shift;
-    let hips_turned = exp(hips_turn);
-    pose.world[0] = hips_turned * wanted.world[0];
+/// The wanted pose with the deviation on it, feet where the wanted pose has them.
+fn posed(body: &Body, wanted: &Input, turned: &[DQuat; UPPER_NODES], hips: &HipsDeviation, ground: DVec3) -> Pose {
+    let mut pose = wanted.pose;
+    pose.hips_position += hips.shift + ground;
+    let hips_turned = exp(hips.turn);
     let mut moved = [false; UPPER_NODES];
-    moved[0] = hips_turn != DVec3::ZERO;
+    if hips.turn != DVec3::ZERO {
+        pose.world[0] = hips_turned * wanted.pose.world[0];
+        moved[0] = true;
+    }
     for node in ABOVE {
         let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
         moved[at] = moved[parent] || turned[at] != DQuat::IDENTITY;
         if moved[at] {
-            pose.world[at] = (pose.world[parent] * (local[at] * turned[at])).normalize();
+            pose.world[at] = (pose.world[parent] * (wanted.local[at] * turned[at])).normalize();
         }
     }
-    if hips_turn != DVec3::ZERO || hips_shift != DVec3::ZERO {
-        let positions = wanted.positions(body);
-        for (upper, lower, foot) in [
-            (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
-            (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
-        ] {
-            let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
-            let leg = LegPose { hip, knee, ankle, knee_axis: wanted.world[lower.index()] * DVec3::X };
-            let new_hip = positions[0] + hips_shift + hips_turned * (hip - positions[0]);
-            let (thigh, shank) = solve_leg(&leg, new_hip, ankle);
-            pose.world[upper.index()] = (thigh * wanted.world[upper.index()]).normalize();
-            pose.world[lower.index()] = (shank * wanted.world[lower.index()]).normalize();
-        }
+    if hips.turn != DVec3::ZERO || hips.shift != DVec3::ZERO {
+        pose.plant_feet(body, &wanted.pose, hips.shift, hips_turned);
     }
     pose
 }

@@ -14,7 +14,7 @@ mod rotation;
 pub use body::{Body, Link, Shape};
 pub use leg::{LegPose, shift_within_reach, solve_leg};
 pub use limit::{Limit, Swing};
-pub use node::{Axis, Dof, Node, UPPER_DOFS, UPPER_NODES, upper_dofs};
+pub use node::{Axis, Dof, LEGS, Node, UPPER_DOFS, UPPER_NODES, upper_dofs};
 pub use overlay::{Deviation, Overlay};
 pub use pose::Pose;
 pub use reduction::{Person, Reduction, ReductionError};

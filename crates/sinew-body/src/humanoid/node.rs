@@ -57,6 +57,12 @@ pub const UPPER_NODES: usize = 12;
 /// Degrees of freedom of the upper body without the root.
 pub const UPPER_DOFS: usize = 24;
 
+/// Upper leg, lower leg and foot of both sides.
+pub const LEGS: [(Node, Node, Node); 2] = [
+    (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
+    (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
+];
+
 impl Node {
     /// How many nodes there are.
     pub const COUNT: usize = 18;

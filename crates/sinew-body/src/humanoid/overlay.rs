@@ -6,6 +6,7 @@
 //! touched, not even the last bit.
 
 use super::leg::{LegPose, shift_within_reach, solve_leg};
+use super::node::LEGS;
 use super::rotation::{exp, log};
 use super::{Node, Reduction, UPPER_NODES};
 use glam::{DQuat, DVec3};
@@ -14,12 +15,6 @@ use sinew_motion::Transform;
 /// Turns below this \[rad\] and shifts below this \[m\] are no deviation: a hundredth of the last digit that a motion
 /// file prints.
 const NOTHING: f64 = 1e-10;
-
-/// Upper leg, lower leg and foot of both sides.
-const LEGS: [(Node, Node, Node); 2] = [
-    (Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot),
-    (Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot),
-];
 
 /// How far a body is from the input at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,8 @@
 //! A pose of the 18 bodies.
 
-use super::{Body, Node};
+use super::node::LEGS;
+use super::rotation::exp;
+use super::{Body, Deviation, LegPose, Node, UPPER_NODES, solve_leg};
 use glam::{DQuat, DVec3};
 
 /// Where every body is: the hips' position and all world orientations.
@@ -45,6 +47,45 @@ impl Pose {
             }
         }
         positions
+    }
+
+    /// This pose with a deviation on it (shifts in metres of the body), feet where this pose has them: what
+    /// [`Overlay`](super::Overlay) does on a source skeleton.
+    #[must_use]
+    pub fn deviated(&self, body: &Body, deviation: &Deviation) -> Pose {
+        let mut pose = *self;
+        pose.hips_position += deviation.hips_shift + deviation.ground_shift;
+        let hips_turned = exp(deviation.hips_turn);
+        let mut moved = [false; UPPER_NODES];
+        if deviation.hips_turn != DVec3::ZERO {
+            pose.world[0] = hips_turned * self.world[0];
+            moved[0] = true;
+        }
+        for node in Node::ALL.into_iter().take(UPPER_NODES).skip(1) {
+            let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
+            moved[at] = moved[parent] || deviation.turns[at] != DVec3::ZERO;
+            if moved[at] {
+                pose.world[at] = (pose.world[parent] * (self.local(node) * exp(deviation.turns[at]))).normalize();
+            }
+        }
+        if moved[0] || deviation.hips_shift != DVec3::ZERO {
+            pose.plant_feet(body, self, deviation.hips_shift, hips_turned);
+        }
+        pose
+    }
+
+    /// Turns the legs of this pose so that its feet are where `wanted` has them, when its hips are `wanted`'s turned by
+    /// `hips_turned` (`world_from_world`) and then shifted.
+    pub fn plant_feet(&mut self, body: &Body, wanted: &Pose, hips_shift: DVec3, hips_turned: DQuat) {
+        let positions = wanted.positions(body);
+        for (upper, lower, foot) in LEGS {
+            let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
+            let leg = LegPose { hip, knee, ankle, knee_axis: wanted.world[lower.index()] * DVec3::X };
+            let new_hip = positions[0] + hips_shift + hips_turned * (hip - positions[0]);
+            let (thigh, shank) = solve_leg(&leg, new_hip, ankle);
+            self.world[upper.index()] = (thigh * wanted.world[upper.index()]).normalize();
+            self.world[lower.index()] = (shank * wanted.world[lower.index()]).normalize();
+        }
     }
 
     /// Whether every number is finite.
