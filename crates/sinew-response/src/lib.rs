@@ -60,3 +60,9 @@ pub use settings::{Coordinates, Preset, Settings};
 pub use stability::{growth, stable_compliance};
 pub use torque::torques;
 pub use track::{Disturbances, Track};
+
+/// The optimisation of one frame by itself, for benchmarks on other bodies.
+#[doc(hidden)]
+pub mod bench {
+    pub use crate::objective::{Frame, Objective, Weighing};
+}

@@ -25,8 +25,8 @@ const FASTEST: f64 = 40.0;
 /// Halvings that find where a joint meets its limit: to 1e-5 of the way.
 const LIMIT_HALVINGS: usize = 17;
 
-/// A deviation that is nowhere larger, and does not grow by more in a step, is forgotten \[rad\]: nobody sees it, and a body
-/// at rest on its input costs a fraction.
+/// A deviation that is nowhere larger, and does not grow by more in a step, is forgotten \[rad\]: nobody sees it, and the
+/// body is on its input exactly again.
 const FORGOTTEN: f64 = 1e-12;
 
 /// A character that answers to pushes while it follows a motion: one [`step`](Response::step) a frame.
