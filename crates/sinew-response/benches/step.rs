@@ -79,9 +79,7 @@ impl<S: Real> Case<S> {
         };
         let objective = Objective::new(&tree, &directions(&mut random), &weighing);
         let mut several = |scale: f64| -> Vec<Numbers<S>> {
-            (0..STATES)
-                .map(|_| std::array::from_fn(|_| S::from_lanes(|_| random.next() * scale)))
-                .collect()
+            (0..STATES).map(|_| std::array::from_fn(|_| S::from_lanes(|_| random.next() * scale))).collect()
         };
         let (q, rate) = (several(0.8), several(2.0));
         let (deviation, input_step, aim) = (several(0.05), several(0.03), several(20.0));
