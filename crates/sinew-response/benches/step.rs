@@ -152,7 +152,6 @@ fn bare<S: Real>(criterion: &mut Criterion, name: &str, body: &DynamicBody, kind
 fn timed(criterion: &mut Criterion, name: &str, characters: usize, mut call: impl FnMut()) {
     let mut samples = Vec::new();
     criterion.bench_function(name, |bencher| {
-        samples.clear();
         bencher.iter_custom(|calls| {
             let start = Instant::now();
             for _ in 0..calls {

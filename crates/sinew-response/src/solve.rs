@@ -117,7 +117,7 @@ impl<S: Real, const N: usize> Factor<S, N> {
 
 /// `LENGTH` entries from `from` on.
 #[inline(always)]
-fn part<S: Real, const N: usize, const LENGTH: usize>(row: &[S; N], from: usize) -> [S; LENGTH] {
+pub(crate) fn part<S: Real, const N: usize, const LENGTH: usize>(row: &[S; N], from: usize) -> [S; LENGTH] {
     *row[from..].first_chunk().expect("the blocks lie within the matrix")
 }
 
