@@ -6,7 +6,7 @@
 //! hips sink and stay within reach of both ankles.
 
 use crate::force::PointForce;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, LEGS, LegPose, Pose, exp, shift_within_reach, solve_leg};
 
 /// Frequency of the return \[rad/s\].
@@ -123,9 +123,14 @@ impl Legs {
         Legs { hips: positions[0], legs }
     }
 
+    /// Both hip joints when the hips are turned \[m\].
+    fn carried(&self, turn: DQuat) -> [DVec3; 2] {
+        self.legs.map(|leg| self.hips + turn * (leg.hip - self.hips))
+    }
+
     /// The departure with its shift brought within reach of both ankles.
     fn reached(&self, wanted: HipsDeviation) -> HipsDeviation {
-        let shift = shift_within_reach(&self.legs, self.hips, exp(wanted.turn), wanted.shift);
+        let shift = shift_within_reach(&self.legs, self.carried(exp(wanted.turn)), wanted.shift);
         HipsDeviation { shift, ..wanted }
     }
 
@@ -133,9 +138,8 @@ impl Legs {
     fn are_within_limits(&self, body: &Body, input: &Pose, shown: &HipsDeviation) -> bool {
         let turn = exp(shown.turn);
         let hips = turn * input.world[0];
-        self.legs.iter().zip(LEGS).all(|(leg, (upper, lower, foot))| {
-            let hip = self.hips + shown.shift + turn * (leg.hip - self.hips);
-            let (thigh_turn, shank_turn) = solve_leg(leg, hip, leg.ankle);
+        self.legs.iter().zip(self.carried(turn)).zip(LEGS).all(|((leg, hip), (upper, lower, foot))| {
+            let (thigh_turn, shank_turn) = solve_leg(leg, hip + shown.shift, leg.ankle);
             let thigh = thigh_turn * input.world[upper.index()];
             let shank = shank_turn * input.world[lower.index()];
             body.link(upper).limit.contains(hips.conjugate() * thigh)

@@ -37,10 +37,11 @@ pub struct Settings {
     /// Which ones.
     pub coordinates: Coordinates,
     /// How far the body yields, from [`Settings::MIN_COMPLIANCE`] over 1 to [`Settings::MAX_COMPLIANCE`]; only the robust preset
-    /// has this dial. It loosens tracking (w1), damping (w2) and the passive spring (ω) together, with exponents chosen on
-    /// walks, runs, a sneak, punches and a martial-arts form so that a loose body also comes back: damping gives way faster
-    /// than tracking, since it is damping against the input that makes a recovery slow. From 0.25 to 4 a push on the hand
-    /// deflects a walk's joints from half to one and a half times as far as at 1.
+    /// has this dial. It moves tracking (w1), damping (w2) and the passive spring (ω) together, with exponents chosen on
+    /// walks, runs, a sneak, punches, a dance and a martial-arts form so that the body also comes back. Towards loose,
+    /// damping gives way faster than tracking, since it is damping against the input that makes a recovery slow; towards
+    /// stiff they keep their ratio, and the dynamic constraint's penalty sinks, since it is what carries a fast motion away.
+    /// From 0.25 to 4 a push deflects a walk's joints from half to one and a half times as far as at 1.
     /// [`stable_compliance`](crate::stable_compliance) tells how far the dial may go on a motion.
     pub compliance: f64,
     /// Time from one frame to the next \[s\].
@@ -120,12 +121,16 @@ impl Weights {
             damps_relative: true,
         };
         match settings.preset {
-            Preset::Robust => Weights {
-                track: base.track * libm::pow(compliance, -0.4),
-                damp: base.damp.map(|weight| weight * libm::pow(compliance, -0.8)),
-                passive_frequency: base.passive_frequency * libm::pow(compliance, -0.3),
-                ..base
-            },
+            Preset::Robust => {
+                let (stiff, loose) = (compliance.min(1.0), compliance.max(1.0));
+                Weights {
+                    track: base.track * libm::pow(stiff, -0.8) * libm::pow(loose, -0.4),
+                    damp: base.damp.map(|weight| weight * libm::pow(compliance, -0.8)),
+                    passive_frequency: base.passive_frequency * libm::pow(compliance, -0.3),
+                    dynamics: base.dynamics * stiff,
+                    ..base
+                }
+            }
             Preset::Paper => Weights { dynamics: 4.0 * by_mass, passive_frequency: 0.0, aims_at_input: false, ..base },
             Preset::Literal => Weights {
                 dynamics: f64::INFINITY,

@@ -1,4 +1,5 @@
 //! Fed one frame at a time without the future, a character answers as it does over a clip.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use glam::DVec3;
 use sinew::body::humanoid::{Node, Person, Pose, Reduction};

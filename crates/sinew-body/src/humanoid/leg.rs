@@ -58,13 +58,14 @@ const STRAIGHTEST: f64 = 0.9995;
 /// Sweeps over the two legs; each is a projection onto a ball, and two balls that meet need few.
 const SWEEPS: usize = 16;
 
-/// The shift of the hips \[m\] closest to `shift` at which both legs of the input still reach their ankles when the hips, at
-/// `centre`, are turned by `turn` (`world_from_world`) and then shifted: as a rule the hips sink a little.
-pub fn shift_within_reach(legs: &[LegPose; 2], centre: DVec3, turn: DQuat, shift: DVec3) -> DVec3 {
-    let legs = legs.map(|leg| {
+/// The shift of the hips \[m\] closest to `shift` at which both legs of the input still reach their ankles from hip joints
+/// at `hips`, which are then shifted: as a rule they sink a little.
+pub fn shift_within_reach(legs: &[LegPose; 2], hips: [DVec3; 2], shift: DVec3) -> DVec3 {
+    let legs = [0, 1].map(|side| {
+        let leg = &legs[side];
         let length = (leg.knee - leg.hip).length() + (leg.ankle - leg.knee).length();
         let reach = (length * STRAIGHTEST).max((leg.ankle - leg.hip).length());
-        (centre + turn * (leg.hip - centre) - leg.ankle, reach)
+        (hips[side] - leg.ankle, reach)
     });
     let mut shift = shift;
     for _ in 0..SWEEPS {

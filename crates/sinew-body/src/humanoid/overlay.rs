@@ -74,7 +74,6 @@ pub struct Overlay<'a> {
     deltas: Vec<DQuat>,
     /// Per joint, the node or chain share that sets its delta.
     roles: Vec<Role>,
-    hips_joint: usize,
     /// The joint whose translation shifts the body: the hips' nearest ancestor-or-self that may move.
     mover: usize,
 }
@@ -107,14 +106,13 @@ impl<'a> Overlay<'a> {
         for &(joint, share) in &reduction.neck {
             roles[joint] = Role::Neck(share);
         }
-        let hips_joint = reduction.carriers[0].map_or(0, |carrier| carrier.joint);
-        let mut mover = hips_joint;
+        let mut mover = reduction.carriers[0].map_or(0, |carrier| carrier.joint);
         while !moving.contains(&mover)
             && let Some(parent) = reduction.parents[mover]
         {
             mover = parent;
         }
-        Overlay { reduction, deltas: vec![DQuat::IDENTITY; joints], roles, hips_joint, mover }
+        Overlay { reduction, deltas: vec![DQuat::IDENTITY; joints], roles, mover }
     }
 
     /// Applies a deviation to one frame: `world` is the input's `world_from_joint`, `changed` is called for each joint
@@ -127,23 +125,15 @@ impl<'a> Overlay<'a> {
         mut rotated: impl FnMut(usize, DQuat),
         mut moved: impl FnMut(usize, DVec3),
     ) {
-        let shift = self.reachable_shift(world, deviation);
-        let turns = self.node_deltas(world, deviation, shift);
-        let hips = turns[Node::Hips.index()];
-        let chest_against_hips = log(hips.conjugate() * turns[Node::Chest.index()]);
-        let chest = turns[Node::Chest.index()];
-        let head_against_chest = log(chest.conjugate() * turns[Node::Head.index()]);
+        let input = self.reduction.orientations(world);
+        let mut turned = Turned::of(&input, deviation);
+        let shift = self.plant_feet(world, &input, deviation.hips_shift, &mut turned);
         for (joint, transform) in world.iter().enumerate() {
             let parent = self.reduction.parents[joint];
             let parent_delta = parent.map_or(DQuat::IDENTITY, |parent| self.deltas[parent]);
-            let delta = match self.roles[joint] {
-                Role::Follow => parent_delta,
-                Role::Node(node) => turns[node],
-                Role::Spine(share) => hips * exp(chest_against_hips * share),
-                Role::Neck(share) => chest * exp(head_against_chest * share),
-            };
-            self.deltas[joint] = delta;
+            let delta = turned.delta(self.roles[joint]).unwrap_or(parent_delta);
             if log(parent_delta.conjugate() * delta).length() > NOTHING {
+                self.deltas[joint] = delta;
                 let new_world = delta * transform.rotation;
                 let new_parent = parent.map_or(DQuat::IDENTITY, |parent| parent_delta * world[parent].rotation);
                 rotated(joint, (new_parent.conjugate() * new_world).normalize());
@@ -160,61 +150,103 @@ impl<'a> Overlay<'a> {
         }
     }
 
-    /// The input's legs as they are in the source skeleton, which may differ by millimetres from the body's.
-    fn legs(&self, world: &[Transform], input: &[DQuat; Node::COUNT]) -> Option<[LegPose; 2]> {
+    /// Bends both legs so that the feet stay where the input has them; returns the hips' shift, given way to the reach of the
+    /// source's own legs, which may differ by millimetres from the body's.
+    fn plant_feet(
+        &self,
+        world: &[Transform],
+        input: &[DQuat; Node::COUNT],
+        shift: DVec3,
+        turned: &mut Turned,
+    ) -> DVec3 {
         let at = |node: Node| Some(world[self.reduction.joint(node)?].translation);
         let leg = |(upper, lower, foot): (Node, Node, Node)| {
             let knee_axis = input[lower.index()] * DVec3::X;
-            Some(LegPose { hip: at(upper)?, knee: at(lower)?, ankle: at(foot)?, knee_axis })
+            let leg = LegPose { hip: at(upper)?, knee: at(lower)?, ankle: at(foot)?, knee_axis };
+            Some((leg, self.carried(world, self.reduction.joint(upper)?, turned)))
         };
-        Some([leg(LEGS[0])?, leg(LEGS[1])?])
-    }
-
-    /// The hips' shift, given way to the source's own legs.
-    fn reachable_shift(&self, world: &[Transform], deviation: &Deviation) -> DVec3 {
-        if deviation.hips_shift == DVec3::ZERO && deviation.hips_turn == DVec3::ZERO {
-            return DVec3::ZERO;
+        let (Some((left, left_hip)), Some((right, right_hip))) = (leg(LEGS[0]), leg(LEGS[1])) else { return shift };
+        let (legs, carried) = ([left, right], [left_hip, right_hip]);
+        let unmoved = shift == DVec3::ZERO && legs.iter().zip(carried).all(|(leg, hip)| leg.hip == hip);
+        let shift = if unmoved { shift } else { shift_within_reach(&legs, carried, shift) };
+        for ((leg, hip), (upper, lower, _)) in legs.iter().zip(carried).zip(LEGS) {
+            let (thigh, shank) = solve_leg(leg, hip + shift, leg.ankle);
+            turned.nodes[upper.index()] = thigh;
+            turned.nodes[lower.index()] = shank;
         }
-        let input = self.reduction.orientations(world);
-        let centre = world[self.hips_joint].translation;
-        self.legs(world, &input).map_or(deviation.hips_shift, |legs| {
-            shift_within_reach(&legs, centre, exp(deviation.hips_turn), deviation.hips_shift)
-        })
+        shift
     }
 
-    /// By what every node's orientation turns in the world.
-    fn node_deltas(&self, world: &[Transform], deviation: &Deviation, shift: DVec3) -> [DQuat; Node::COUNT] {
-        let reduction = self.reduction;
-        let input = reduction.orientations(world);
-        let mut output = input;
-        let mut deltas = [DQuat::IDENTITY; Node::COUNT];
-        deltas[0] = exp(deviation.hips_turn);
-        output[0] = deltas[0] * input[0];
+    /// Where the turns of the joints above it bring a joint \[m\]. Most rigs hang the legs on the hips, some on the spine.
+    fn carried(&self, world: &[Transform], joint: usize, turned: &Turned) -> DVec3 {
+        let mut moved = DVec3::ZERO;
+        let mut at = joint;
+        while let Some(parent) = self.reduction.parents[at] {
+            let delta = self.delta(parent, turned);
+            if delta != DQuat::IDENTITY {
+                let arm = world[at].translation - world[parent].translation;
+                moved += delta * arm - arm;
+            }
+            at = parent;
+        }
+        world[joint].translation + moved
+    }
+
+    /// By what a joint turns in the world.
+    fn delta(&self, joint: usize, turned: &Turned) -> DQuat {
+        let mut at = Some(joint);
+        while let Some(joint) = at {
+            if let Some(delta) = turned.delta(self.roles[joint]) {
+                return delta;
+            }
+            at = self.reduction.parents[joint];
+        }
+        DQuat::IDENTITY
+    }
+}
+
+/// By what every node turns in the world, `world_from_world`.
+struct Turned {
+    nodes: [DQuat; Node::COUNT],
+    chest_against_hips: DVec3,
+    head_against_chest: DVec3,
+}
+
+impl Turned {
+    /// Legs and feet are left as they are.
+    fn of(input: &[DQuat; Node::COUNT], deviation: &Deviation) -> Turned {
+        let mut output = *input;
+        let mut nodes = [DQuat::IDENTITY; Node::COUNT];
+        nodes[0] = exp(deviation.hips_turn);
+        output[0] = nodes[0] * input[0];
         for node in Node::ALL.into_iter().take(UPPER_NODES).skip(1) {
             let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
             let turn = deviation.turns[at];
             if turn.length() <= NOTHING {
                 // Exactly the parent's turn, so that an untouched joint keeps its last bit.
-                deltas[at] = deltas[parent];
-                output[at] = deltas[at] * input[at];
+                nodes[at] = nodes[parent];
+                output[at] = nodes[at] * input[at];
             } else {
                 output[at] = (output[parent] * (input[parent].conjugate() * input[at]) * exp(turn)).normalize();
-                deltas[at] = (output[at] * input[at].conjugate()).normalize();
+                nodes[at] = (output[at] * input[at].conjugate()).normalize();
             }
         }
-        for (leg, (upper, lower)) in
-            self.legs(world, &input).iter().flatten().zip(LEGS.map(|(upper, lower, _)| (upper, lower)))
-        {
-            let centre = world[self.hips_joint].translation;
-            let new_hip = if deviation.hips_turn == DVec3::ZERO && shift == DVec3::ZERO {
-                leg.hip
-            } else {
-                centre + shift + deltas[0] * (leg.hip - centre)
-            };
-            let (thigh, shank) = solve_leg(leg, new_hip, leg.ankle);
-            deltas[upper.index()] = thigh;
-            deltas[lower.index()] = shank;
+        let (hips, chest) = (nodes[0], nodes[Node::Chest.index()]);
+        let head = nodes[Node::Head.index()];
+        Turned {
+            nodes,
+            chest_against_hips: log(hips.conjugate() * chest),
+            head_against_chest: log(chest.conjugate() * head),
         }
-        deltas
+    }
+
+    /// By what a joint of this role turns; `None` for one that turns with its parent.
+    fn delta(&self, role: Role) -> Option<DQuat> {
+        match role {
+            Role::Follow => None,
+            Role::Node(node) => Some(self.nodes[node]),
+            Role::Spine(share) => Some(self.nodes[0] * exp(self.chest_against_hips * share)),
+            Role::Neck(share) => Some(self.nodes[Node::Chest.index()] * exp(self.head_against_chest * share)),
+        }
     }
 }

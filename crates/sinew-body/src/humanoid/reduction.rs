@@ -30,7 +30,7 @@ impl Default for Person {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReductionError {
     /// The person's mass or height makes no sense.
-    #[error("a body of {mass_kg} kg and {height_m} m is out of range; mass is 1 to 1000 kg, height 0.2 to 10 m")]
+    #[error("a body of {mass_kg} kg and {height_m:.2} m is out of range; mass is 1 to 1000 kg, height 0.2 to 10 m")]
     Person {
         /// The mass asked for \[kg\].
         mass_kg: f64,

@@ -81,7 +81,7 @@ impl MotionFile {
         if let Some(unit_m) = options.unit_m
             && !(1e-6..=1e3).contains(&unit_m)
         {
-            let problem = format!("a unit of {unit_m} m is out of range");
+            let problem = format!("a unit of {unit_m:e} m is out of range");
             return Err(Error::new(Place::File, problem, "give metres per file unit, such as 0.01").in_file(&path));
         }
         let unit_m = options.unit_m.or(parsed.unit_m);

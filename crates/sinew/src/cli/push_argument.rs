@@ -70,9 +70,15 @@ impl<'a> Fields<'a> {
     }
 }
 
+/// No force, time or length that anybody means is larger, in newtons, seconds or metres.
+const LARGEST: f64 = 1e6;
+
 fn number(text: &str, what: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| format!("{what}: {text:?} is no number"))?;
-    if value.is_finite() { Ok(value) } else { Err(format!("{what}: {text:?} is not finite")) }
+    if !value.is_finite() {
+        return Err(format!("{what}: {text:?} is not finite"));
+    }
+    if value.abs() > LARGEST { Err(format!("{what}: {text} is more than {LARGEST:e}")) } else { Ok(value) }
 }
 
 fn vector(text: &str, what: &str) -> Result<DVec3, String> {
@@ -118,6 +124,7 @@ mod tests {
             ("part=head,force=0:0", "no vector"),
             ("part=head,force=0:0:nan", "not finite"),
             ("part=head,force=0:0:1e999", "not finite"),
+            ("part=head,force=0:0:1e9", "more than"),
             ("part=head,force=0:0:1,at=-1", "negative"),
             ("part=head,force=0:0:1,frame=local", "neither"),
             ("part=head,force=0:0:1,when=3", "unknown"),

@@ -8,8 +8,9 @@ use glam::DVec3;
 use sinew::figure::body_shapes;
 use sinew::motion::formats::{MotionFile, ReadOptions};
 use sinew::motion::{Note, Part};
-use sinew::respond::{Answer, RespondJob, respond, sheet};
+use sinew::respond::{Answer, RespondError, RespondJob, respond, sheet};
 use sinew::response::{Coordinates, GroundJerk, Preset, Push, PushFrame, Settings};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `sinew respond`.
@@ -110,7 +111,11 @@ impl Respond {
             person: self.who.person(),
         };
         bar.set_message("responding");
-        let answer = respond(&file, &job, basis.as_ref()).with_context(|| file.path.display().to_string())?;
+        let answer = respond(&file, &job, basis.as_ref()).map_err(|error| match error {
+            // It names its file itself.
+            RespondError::File(error) => anyhow::Error::new(error),
+            error => anyhow::Error::new(error).context(file.path.display().to_string()),
+        })?;
         bar.set_message("writing");
         let mut outputs =
             Outputs { motions: self.output.clone(), report: self.report.clone(), picture: self.picture.clone() };
@@ -175,7 +180,7 @@ impl Outputs {
         }
         if let Some(path) = &self.picture {
             let title = file.path.file_name().unwrap_or(file.path.as_os_str()).display().to_string();
-            let png = sheet(answer, file.body_parts()?, &job.pushes, &title).to_png().context("the picture")?;
+            let png = sheet(answer, file.body_parts()?, job, &title).to_png().context("the picture")?;
             output::write_bytes(path, &png)?;
         }
         Ok(notes)
@@ -203,17 +208,22 @@ fn words(answer: &Answer, job: &RespondJob, outputs: &Outputs) -> String {
             lines.push("  it never acted: the clip ends before it begins".to_owned());
             continue;
         }
-        let mut peaks: Vec<(&String, &f64)> = push.peak_deflection_deg.iter().collect();
-        peaks.sort_by(|a, b| b.1.total_cmp(a.1));
-        let most: Vec<String> = peaks.iter().take(6).map(|(part, degrees)| format!("{part} {degrees:.1}°")).collect();
-        lines.push(format!("  peak deflection: {}", most.join(", ")));
-        lines.push(match push.recovered_after_s {
-            Some(secs) => format!("  recovered {secs:.2} s after it ended (every joint within 2°)"),
-            None => "  not recovered by the end; --repeat N plays a walk on until it is".to_owned(),
-        });
+        lines.extend(outcome(&push.peak_deflection_deg, push.recovered_after_s));
     }
-    if job.pushes.is_empty() && job.ground.is_empty() {
+    for jerk in &job.ground {
+        let DVec3 { x, y, z } = jerk.acceleration;
+        lines.push(format!("ground: jerked by {x}:{y}:{z} m/s² at {:.2} s for {:.2} s", jerk.at_secs, jerk.for_secs));
+    }
+    if !job.ground.is_empty() {
+        lines.extend(outcome(&report.peak_deflection_deg, report.recovered_after_s));
+    }
+    if report.largest_departure_deg < UNCHANGED_DEG {
         lines.push("nothing disturbs the clip: it passes through unchanged".to_owned());
+    } else if job.pushes.is_empty() && job.ground.is_empty() {
+        lines.push(format!(
+            "undisturbed, the {} preset leaves the input by up to {:.1}°",
+            report.preset, report.largest_departure_deg
+        ));
     } else {
         lines.push(format!("stance ankles within {:.2} mm of the input's", report.stance_deviation_max_m * 1e3));
     }
@@ -227,6 +237,21 @@ fn words(answer: &Answer, job: &RespondJob, outputs: &Outputs) -> String {
     lines.push(format!("next: {}", suggestion(job)));
     lines.join("\n")
 }
+
+/// The joints that move most, and whether they come back.
+fn outcome(peaks: &BTreeMap<String, f64>, recovered_after_s: Option<f64>) -> [String; 2] {
+    let mut peaks: Vec<(&String, &f64)> = peaks.iter().collect();
+    peaks.sort_by(|a, b| b.1.total_cmp(a.1));
+    let most: Vec<String> = peaks.iter().take(6).map(|(part, degrees)| format!("{part} {degrees:.1}°")).collect();
+    let recovered = match recovered_after_s {
+        Some(secs) => format!("  recovered {secs:.2} s after it ended (every joint within 2°)"),
+        None => "  not recovered by the end; --repeat N plays a walk on until it is".to_owned(),
+    };
+    [format!("  peak deflection: {}", most.join(", ")), recovered]
+}
+
+/// Below this nobody can tell the answer from the input \[deg\]; files print fewer digits.
+const UNCHANGED_DEG: f64 = 1e-6;
 
 fn suggestion(job: &RespondJob) -> &'static str {
     if job.pushes.is_empty() && job.ground.is_empty() {

@@ -1,6 +1,7 @@
 //! The picture of an answer: what users judge the motion by.
 
 use super::answer::Answer;
+use super::job::RespondJob;
 use super::report::{Timeline, preset_name};
 use crate::figure::figure;
 use glam::DVec3;
@@ -19,13 +20,19 @@ const LINES: usize = 7;
 const BEFORE_SECS: f64 = 0.15;
 
 /// A filmstrip of the answer with the input as a ghost, and every joint's deflection over time.
-pub fn sheet(answer: &Answer, humanoid: &Humanoid, pushes: &[Push], title: &str) -> Sheet {
+pub fn sheet(answer: &Answer, humanoid: &Humanoid, job: &RespondJob, title: &str) -> Sheet {
+    let pushes = &job.pushes;
+    let spans: Vec<(f64, f64)> = pushes
+        .iter()
+        .map(|push| (push.at_secs, push.for_secs))
+        .chain(job.ground.iter().map(|jerk| (jerk.at_secs, jerk.for_secs)))
+        .collect();
     let timeline = Timeline::of(&answer.pushed, &answer.unpushed);
-    let begins = pushes.iter().map(|push| push.at_secs).fold(f64::INFINITY, f64::min);
+    let begins = spans.iter().map(|(at, _)| *at).fold(f64::INFINITY, f64::min);
     let duration = answer.clip.duration_secs();
     let (from, to) = if begins <= duration {
         let recovered = answer.report.recovered_after_s.unwrap_or(2.5).clamp(0.6, 2.5);
-        let ends = pushes.iter().map(|push| push.at_secs + push.for_secs).fold(0.0, f64::max);
+        let ends = spans.iter().map(|(at, lasts)| at + lasts).fold(0.0, f64::max);
         ((begins - BEFORE_SECS).max(0.0), (ends + recovered).min(duration))
     } else {
         (answer.first_frame as f64 * answer.clip.frame_time_secs(), duration.min(2.5))
@@ -40,7 +47,7 @@ pub fn sheet(answer: &Answer, humanoid: &Humanoid, pushes: &[Push], title: &str)
     };
     let mut sheet = Sheet {
         title: title.to_owned(),
-        subtitle: subtitle(answer, pushes),
+        subtitle: subtitle(answer, job),
         pieces: vec![strip.into()],
         footer: format!(
             "preset {}, k = {}, compliance {:.2}; {:.0} kg, {:.2} m; pale body: the input",
@@ -52,28 +59,33 @@ pub fn sheet(answer: &Answer, humanoid: &Humanoid, pushes: &[Push], title: &str)
         ),
         ..Sheet::default()
     };
-    if !pushes.is_empty() {
-        sheet.pieces.push(plot(&timeline, pushes, (begins - 0.3).max(0.0), (to + 1.0).min(duration)).into());
+    if !spans.is_empty() {
+        sheet.pieces.push(plot(&timeline, job, (begins - 0.3).max(0.0), (to + 1.0).min(duration)).into());
     }
     sheet
 }
 
-fn subtitle(answer: &Answer, pushes: &[Push]) -> String {
-    match pushes {
-        [] => "no push".to_owned(),
-        [push] => {
-            let back = answer.report.pushes[0].recovered_after_s;
-            let back =
-                back.map_or("does not recover".to_owned(), |secs| format!("recovered {secs:.2} s after it ended"));
-            format!(
-                "{:.0} N on the {} at {:.2} s for {:.2} s; {back}",
-                push.force_n.length(),
-                push.part,
-                push.at_secs,
-                push.for_secs
-            )
-        }
-        several => format!("{} pushes", several.len()),
+fn subtitle(answer: &Answer, job: &RespondJob) -> String {
+    let back = answer.report.recovered_after_s;
+    let back =
+        back.map_or("not recovered by the end".to_owned(), |secs| format!("recovered {secs:.2} s after it ended"));
+    match (&job.pushes[..], &job.ground[..]) {
+        ([], []) => "no push".to_owned(),
+        ([push], []) => format!(
+            "{:.0} N on the {} at {:.2} s for {:.2} s; {back}",
+            push.force_n.length(),
+            push.part,
+            push.at_secs,
+            push.for_secs
+        ),
+        ([], [jerk]) => format!(
+            "ground jerked by {:.1} m/s² at {:.2} s for {:.2} s, seen from the ground; {back}",
+            jerk.acceleration.length(),
+            jerk.at_secs,
+            jerk.for_secs
+        ),
+        (pushes, []) => format!("{} pushes; the last {back}", pushes.len()),
+        (pushes, jerks) => format!("{} pushes and {} jerks of the ground; the last {back}", pushes.len(), jerks.len()),
     }
 }
 
@@ -86,7 +98,12 @@ fn panels(answer: &Answer, pushes: &[Push], shapes: &[(Node, usize, Shape)], fro
             let wanted = from + (to - from) * index as f64 / (PANELS - 1) as f64;
             let frame = ((wanted / frame_time).round() as usize).min(last);
             let time_secs = frame as f64 * frame_time;
-            let (ours, input) = (answer.clip.world(frame), answer.input.world(frame));
+            // Seen from the ground, which may have been jerked.
+            let ground = answer.pushed.deviation_at(time_secs).ground_shift / answer.reduction.scale();
+            let (mut ours, input) = (answer.clip.world(frame), answer.input.world(frame));
+            for joint in &mut ours {
+                joint.translation -= ground;
+            }
             let acting = |push: &&Push| {
                 // A push shorter than the time between panels is shown in the panel that it falls in.
                 let step = (to - from) / (PANELS - 1) as f64;
@@ -116,7 +133,17 @@ fn camera(answer: &Answer, humanoid: &Humanoid, secs: f64) -> Camera {
     Camera::three_quarter().about_heading(facing(&world, humanoid).unwrap_or(DVec3::Z))
 }
 
-fn plot(timeline: &Timeline, pushes: &[Push], from: f64, to: f64) -> Plot {
+fn plot(timeline: &Timeline, job: &RespondJob, from: f64, to: f64) -> Plot {
+    let pushes = job.pushes.iter().map(|push| Mark {
+        from_secs: push.at_secs,
+        to_secs: push.at_secs + push.for_secs,
+        label: format!("{} {:.0} N", push.part, push.force_n.length()),
+    });
+    let jerks = job.ground.iter().map(|jerk| Mark {
+        from_secs: jerk.at_secs,
+        to_secs: jerk.at_secs + jerk.for_secs,
+        label: format!("ground {:.1} m/s²", jerk.acceleration.length()),
+    });
     let mut peaks: Vec<(Node, f64)> = Node::ALL
         .into_iter()
         .map(|node| (node, timeline.rows.iter().map(|(_, angles)| angles[node.index()]).fold(0.0, f64::max)))
@@ -127,18 +154,11 @@ fn plot(timeline: &Timeline, pushes: &[Push], from: f64, to: f64) -> Plot {
         Series::new(node.part().name(), rows.map(|(secs, angles)| (*secs, angles[node.index()].to_degrees())).collect())
     });
     Plot {
-        title: "How far each joint is from the same motion without the push".to_owned(),
+        title: "How far each joint is from the same motion undisturbed".to_owned(),
         x_label: "time (s)".to_owned(),
         y_label: "deflection (°)".to_owned(),
         series: series.collect(),
-        marks: pushes
-            .iter()
-            .map(|push| Mark {
-                from_secs: push.at_secs,
-                to_secs: push.at_secs + push.for_secs,
-                label: format!("{} {:.0} N", push.part, push.force_n.length()),
-            })
-            .collect(),
+        marks: pushes.chain(jerks).collect(),
         limits: vec![Limit { value: 2.0, label: "recovered below 2°".to_owned() }],
         ..Plot::default()
     }

@@ -38,6 +38,8 @@ pub struct RespondReport {
     pub pushes: Vec<PushReport>,
     /// The largest geodesic angle of every joint from the run without disturbances, over the whole clip \[deg\].
     pub peak_deflection_deg: BTreeMap<String, f64>,
+    /// How far the answer is from the input, in any joint, over the whole clip \[deg\].
+    pub largest_departure_deg: f64,
     /// From the end of the last disturbance until every joint stays within 2 degrees \[s\]; null if never, or if nothing
     /// disturbed.
     pub recovered_after_s: Option<f64>,
@@ -113,6 +115,7 @@ impl RespondReport {
             fps: clip.fps(),
             pushes,
             peak_deflection_deg: timeline.peaks(f64::NEG_INFINITY, end),
+            largest_departure_deg: largest_departure(pushed).to_degrees(),
             recovered_after_s: (last_end > f64::NEG_INFINITY).then(|| timeline.recovered(last_end, end)).flatten(),
             stance_deviation_max_m: stance_deviation(humanoid, input, clip, pushed, reduction),
             finite: pushed.is_finite() && clip.first_non_finite().is_none(),
@@ -136,6 +139,12 @@ impl PushReport {
             recovered_after_s: world_force_n.and_then(|_| timeline.recovered(push.at_secs + push.for_secs, next_secs)),
         }
     }
+}
+
+/// The largest turn of any joint from the input \[rad\].
+fn largest_departure(track: &Track) -> f64 {
+    let turns = track.deviations().iter().flat_map(|deviation| deviation.turns.iter().chain([&deviation.hips_turn]));
+    turns.map(|turn| turn.length()).fold(0.0, f64::max)
 }
 
 /// The command line's word for a preset.
