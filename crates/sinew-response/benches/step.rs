@@ -79,9 +79,7 @@ impl<S: Real> Case<S> {
         };
         let objective = Objective::new(&tree, &directions(&mut random), &weighing);
         let mut several = |scale: f64| -> Vec<Numbers<S>> {
-            (0..STATES)
-                .map(|_| std::array::from_fn(|_| S::from_lanes(|_| random.next() * scale)))
-                .collect()
+            (0..STATES).map(|_| std::array::from_fn(|_| S::from_lanes(|_| random.next() * scale))).collect()
         };
         let (q, rate) = (several(0.8), several(2.0));
         let (deviation, input_step, aim) = (several(0.05), several(0.03), several(20.0));
@@ -125,6 +123,7 @@ fn bare<S: Real>(criterion: &mut Criterion, name: &str, body: &DynamicBody, kind
         case.coordinates.set(&case.tree, &case.q[i], &case.rate[i], state);
         inverse(&case.tree, &case.base, state, &[], workspace, out);
     };
+    dynamics(0, &mut state, &mut workspace, &mut out);
     let mut i = 0;
     let mut next = || {
         i = (i + 1) % STATES;
@@ -140,6 +139,7 @@ fn bare<S: Real>(criterion: &mut Criterion, name: &str, body: &DynamicBody, kind
     });
     // What was timed is right: a hard constraint is met.
     if kind == Kind::Hard {
+        dynamics(7, &mut state, &mut workspace, &mut out);
         let frame = case.frame(7, &out, kind);
         let y = case.objective.solve(&frame);
         let left = case.objective.left(&frame, &y, &case.objective.torque_after(&frame, &y));

@@ -182,8 +182,7 @@ fn what_is_left_of_a_hard_constraint_is_nothing_and_of_a_soft_one_is_its_row() {
     let left = objective.left(&frame, &[0.0; N], &torque);
     let by_hand: f64 = (0..N)
         .map(|i| {
-            case.directions[2][i]
-                * (case.torque[i] - case.aim[i] + case.weighing.stiffness[i] * case.deviation[i])
+            case.directions[2][i] * (case.torque[i] - case.aim[i] + case.weighing.stiffness[i] * case.deviation[i])
         })
         .sum();
     assert!((left[2] - by_hand).abs() < 1e-10);
