@@ -245,7 +245,7 @@ impl<S: Real> Objective<S> {
                 right[i] += hold * step[i];
             }
         }
-        let factor = Factor::of(matrix);
+        let factor = Factor::of(&matrix);
         factor.forward(&mut rows);
         factor.forward_one(&mut right);
         let mut step = eliminate(&rows, value, &right, factor.inverse(), self.softness);
@@ -360,7 +360,7 @@ fn eliminate<S: Real, const K: usize>(
         sums[a] += softness;
         *schur = sums;
     }
-    Factor::of(schur).solve(&mut multipliers);
+    Factor::of(&schur).solve(&mut multipliers);
     std::array::from_fn(|i| free[i] - dot(&weighed[i], &multipliers))
 }
 

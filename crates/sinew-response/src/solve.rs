@@ -13,11 +13,14 @@ const LEAST_PIVOT: f64 = 1e-14;
 /// And at least this.
 const TINY: f64 = 1e-280;
 
-/// L D Lᵀ of a symmetric positive definite matrix.
+/// L D Lᵀ of a symmetric positive definite matrix. L is kept twice, so that every loop runs along a row; its diagonal of
+/// ones is kept as zeros.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Factor<S, const N: usize> {
-    /// Row j holds column j of L below its diagonal; the rest is zero.
+    /// Row j is column j of L.
     columns: [[S; N]; N],
+    /// Row i is row i of L.
+    rows: [[S; N]; N],
     /// 1 / D.
     inverse: [S; N],
 }
@@ -25,42 +28,47 @@ pub(crate) struct Factor<S, const N: usize> {
 impl<S: Real, const N: usize> Factor<S, N> {
     /// Factorises a matrix of which only the entries at and right of the diagonal are read.
     #[inline(always)]
-    pub(crate) fn of(matrix: [[S; N]; N]) -> Factor<S, N> {
-        let mut factor = Factor { columns: matrix, inverse: [S::ZERO; N] };
-        let diagonal: [S; N] = std::array::from_fn(|j| factor.columns[j][j]);
+    pub(crate) fn of(matrix: &[[S; N]; N]) -> Factor<S, N> {
+        let mut factor = Factor { columns: [[S::ZERO; N]; N], rows: [[S::ZERO; N]; N], inverse: [S::ZERO; N] };
+        let mut pivots = [S::ZERO; N];
         if N == 24 {
             // What lies left of the diagonal is left out by blocks.
-            factor.eliminate::<0, 8, 24>(&diagonal);
-            factor.eliminate::<8, 16, 16>(&diagonal);
-            factor.eliminate::<16, 24, 8>(&diagonal);
+            factor.eliminate::<0, 8, 24>(matrix, &mut pivots);
+            factor.eliminate::<8, 16, 16>(matrix, &mut pivots);
+            factor.eliminate::<16, 24, 8>(matrix, &mut pivots);
         } else {
-            factor.eliminate::<0, N, N>(&diagonal);
+            factor.eliminate::<0, N, N>(matrix, &mut pivots);
         }
         factor
     }
 
-    /// Columns `FROM` to `TO`, of each the `LENGTH` entries from `FROM` on. Each is taken from all later ones at once:
-    /// every loop then runs along a row.
+    /// Columns `FROM` to `TO`, of each the `LENGTH` entries from `FROM` on, which stay in registers while all earlier
+    /// columns are taken from them.
     #[inline(always)]
-    fn eliminate<const FROM: usize, const TO: usize, const LENGTH: usize>(&mut self, diagonal: &[S; N]) {
+    fn eliminate<const FROM: usize, const TO: usize, const LENGTH: usize>(
+        &mut self,
+        matrix: &[[S; N]; N],
+        pivots: &mut [S; N],
+    ) {
         for j in FROM..TO.min(N) {
-            let (done, left) = self.columns.split_at_mut(j + 1);
-            let column = part::<S, N, LENGTH>(&done[j], FROM);
-            let least = (diagonal[j].abs() * S::splat(LEAST_PIVOT)).larger(S::splat(TINY));
-            let inverse = column[j - FROM].larger(least).recip();
-            let scaled = column.map(|value| value * inverse);
-            for (i, row) in left.iter_mut().enumerate() {
-                let factor = scaled[j + 1 + i - FROM];
-                let mut rest = part::<S, N, LENGTH>(row, FROM);
-                for (value, &other) in rest.iter_mut().zip(&column) {
+            let mut column = part::<S, N, LENGTH>(&matrix[j], FROM);
+            for m in 0..j {
+                let factor = self.rows[j][m] * pivots[m];
+                let before = part::<S, N, LENGTH>(&self.columns[m], FROM);
+                for (value, &other) in column.iter_mut().zip(&before) {
                     *value -= other * factor;
                 }
-                row[FROM..FROM + LENGTH].copy_from_slice(&rest);
             }
+            let least = (matrix[j][j].abs() * S::splat(LEAST_PIVOT)).larger(S::splat(TINY));
+            let pivot = column[j - FROM].larger(least);
+            let inverse = pivot.recip();
+            pivots[j] = pivot;
             self.inverse[j] = inverse;
-            let row = &mut done[j];
-            row[FROM..FROM + LENGTH].copy_from_slice(&scaled);
-            row[..=j].fill(S::ZERO);
+            for i in j + 1..N {
+                let entry = column[i - FROM] * inverse;
+                self.columns[j][i] = entry;
+                self.rows[i][j] = entry;
+            }
         }
     }
 
@@ -71,24 +79,25 @@ impl<S: Real, const N: usize> Factor<S, N> {
 
     /// L⁻¹ times several columns at once, given row by row.
     #[inline(always)]
-    pub(crate) fn forward<const K: usize>(&self, rows: &mut [[S; K]; N]) {
-        for j in 0..N {
-            let (done, left) = rows.split_at_mut(j + 1);
-            let known = &done[j];
-            for (row, &factor) in left.iter_mut().zip(&self.columns[j][j + 1..]) {
-                for (value, &known) in row.iter_mut().zip(known) {
+    pub(crate) fn forward<const K: usize>(&self, right: &mut [[S; K]; N]) {
+        for i in 0..N {
+            let mut row = right[i];
+            for j in 0..i {
+                let factor = self.rows[i][j];
+                for (value, &known) in row.iter_mut().zip(&right[j]) {
                     *value -= known * factor;
                 }
             }
+            right[i] = row;
         }
     }
 
     /// L⁻¹ times a vector.
     #[inline(always)]
     pub(crate) fn forward_one(&self, vector: &mut [S; N]) {
-        for j in 0..N {
+        for (j, column) in self.columns.iter().enumerate() {
             let known = vector[j];
-            for (value, &factor) in vector.iter_mut().zip(&self.columns[j]) {
+            for (value, &factor) in vector.iter_mut().zip(column) {
                 *value -= known * factor;
             }
         }
@@ -97,9 +106,11 @@ impl<S: Real, const N: usize> Factor<S, N> {
     /// L⁻ᵀ times a vector.
     #[inline(always)]
     pub(crate) fn backward_one(&self, vector: &mut [S; N]) {
-        for j in (0..N).rev() {
-            let sum = dot(&self.columns[j], vector);
-            vector[j] -= sum;
+        for (i, row) in self.rows.iter().enumerate().rev() {
+            let known = vector[i];
+            for (value, &factor) in vector.iter_mut().zip(row) {
+                *value -= known * factor;
+            }
         }
     }
 
@@ -152,7 +163,7 @@ mod tests {
         let right = nalgebra::SVector::<f64, N>::from_fn(|_, _| random());
         let theirs = nalgebra::linalg::Cholesky::new(matrix).expect("positive definite").solve(&right);
         let mut ours: [f64; N] = right.into();
-        let factor = Factor::of(std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)])));
+        let factor = Factor::of(&std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)])));
         factor.solve(&mut ours);
         for i in 0..N {
             // The condition number is up to 1e5.
@@ -178,7 +189,7 @@ mod tests {
     fn what_cannot_be_solved_stays_finite() {
         for matrix in [[[0.0; 4]; 4], [[1.0; 4]; 4], [[1e300; 4]; 4], [[-1.0; 4]; 4]] {
             let mut right = [1.0, -2.0, 3.0, 0.0];
-            Factor::of(matrix).solve(&mut right);
+            Factor::of(&matrix).solve(&mut right);
             assert!(!right.iter().any(|value| value.is_nan()), "{matrix:?}: {right:?}");
         }
     }
@@ -186,7 +197,7 @@ mod tests {
     #[test]
     fn nothing_gives_nothing() {
         let mut right = [0.0; 4];
-        Factor::of([[2.0, 1.0, 0.0, 0.5], [1.0, 3.0, 0.2, 0.1], [0.0, 0.2, 1.0, 0.0], [0.5, 0.1, 0.0, 4.0]])
+        Factor::of(&[[2.0, 1.0, 0.0, 0.5], [1.0, 3.0, 0.2, 0.1], [0.0, 0.2, 1.0, 0.0], [0.5, 0.1, 0.0, 4.0]])
             .solve(&mut right);
         assert_eq!(right, [0.0; 4]);
     }
