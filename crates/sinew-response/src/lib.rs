@@ -40,6 +40,8 @@ mod live;
 mod motion;
 mod objective;
 #[cfg(test)]
+mod objective_tests;
+#[cfg(test)]
 mod oracle;
 mod push;
 mod response;

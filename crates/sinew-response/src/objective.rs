@@ -19,7 +19,7 @@
 //! of which a hard constraint is the case 1/wc² = 0. Only the reflex couples the coordinates in B; then B = L D Lᵀ, and
 //! L⁻¹R takes the place of R.
 
-use crate::solve::{Factor, dot};
+use crate::solve::{Factor, dot, part};
 use sinew_body::dynamics::{Real, Tree};
 use sinew_body::humanoid::UPPER_DOFS;
 use std::ops::Range;
@@ -268,13 +268,13 @@ impl<S: Real> Objective<S> {
             let mut sums = [S::ZERO; LENGTH];
             for j in self.coupled[i].columns() {
                 let factor = mass[i][j] * inner;
-                for (sum, &other) in sums.iter_mut().zip(&mass[j][FROM..]) {
+                for (sum, &other) in sums.iter_mut().zip(&part::<S, N, LENGTH>(&mass[j], FROM)) {
                     *sum += other * factor;
                 }
             }
             for along in along {
                 let factor = along[i] * outer;
-                for (sum, &other) in sums.iter_mut().zip(&along[FROM..]) {
+                for (sum, &other) in sums.iter_mut().zip(&part::<S, N, LENGTH>(along, FROM)) {
                     *sum -= other * factor;
                 }
             }

@@ -27,40 +27,39 @@ impl<S: Real, const N: usize> Factor<S, N> {
     #[inline(always)]
     pub(crate) fn of(matrix: [[S; N]; N]) -> Factor<S, N> {
         let mut factor = Factor { columns: matrix, inverse: [S::ZERO; N] };
-        let mut pivots = [S::ZERO; N];
+        let diagonal: [S; N] = std::array::from_fn(|j| factor.columns[j][j]);
         if N == 24 {
             // What lies left of the diagonal is left out by blocks.
-            factor.eliminate::<0, 8, 24>(&mut pivots);
-            factor.eliminate::<8, 16, 16>(&mut pivots);
-            factor.eliminate::<16, 24, 8>(&mut pivots);
+            factor.eliminate::<0, 8, 24>(&diagonal);
+            factor.eliminate::<8, 16, 16>(&diagonal);
+            factor.eliminate::<16, 24, 8>(&diagonal);
         } else {
-            factor.eliminate::<0, N, N>(&mut pivots);
+            factor.eliminate::<0, N, N>(&diagonal);
         }
         factor
     }
 
-    /// Columns `FROM` to `TO`, of each the `LENGTH` entries from `FROM` on.
+    /// Columns `FROM` to `TO`, of each the `LENGTH` entries from `FROM` on. Each is taken from all later ones at once:
+    /// every loop then runs along a row.
     #[inline(always)]
-    fn eliminate<const FROM: usize, const TO: usize, const LENGTH: usize>(&mut self, pivots: &mut [S; N]) {
+    fn eliminate<const FROM: usize, const TO: usize, const LENGTH: usize>(&mut self, diagonal: &[S; N]) {
         for j in FROM..TO.min(N) {
-            let mut column = part::<S, N, LENGTH>(&self.columns[j], FROM);
-            let diagonal = self.columns[j][j];
-            for (before, &pivot) in self.columns[..j].iter().zip(&pivots[..j]) {
-                let factor = before[j] * pivot;
-                let before = part::<S, N, LENGTH>(before, FROM);
-                for (value, &other) in column.iter_mut().zip(&before) {
+            let (done, left) = self.columns.split_at_mut(j + 1);
+            let column = part::<S, N, LENGTH>(&done[j], FROM);
+            let least = (diagonal[j].abs() * S::splat(LEAST_PIVOT)).larger(S::splat(TINY));
+            let inverse = column[j - FROM].larger(least).recip();
+            let scaled = column.map(|value| value * inverse);
+            for (i, row) in left.iter_mut().enumerate() {
+                let factor = scaled[j + 1 + i - FROM];
+                let mut rest = part::<S, N, LENGTH>(row, FROM);
+                for (value, &other) in rest.iter_mut().zip(&column) {
                     *value -= other * factor;
                 }
+                row[FROM..FROM + LENGTH].copy_from_slice(&rest);
             }
-            let least = (diagonal.abs() * S::splat(LEAST_PIVOT)).larger(S::splat(TINY));
-            let pivot = column[j - FROM].larger(least);
-            let inverse = pivot.recip();
-            pivots[j] = pivot;
             self.inverse[j] = inverse;
-            let row = &mut self.columns[j];
-            for (entry, &value) in row[FROM..].iter_mut().zip(&column) {
-                *entry = value * inverse;
-            }
+            let row = &mut done[j];
+            row[FROM..FROM + LENGTH].copy_from_slice(&scaled);
             row[..=j].fill(S::ZERO);
         }
     }
@@ -117,7 +116,7 @@ impl<S: Real, const N: usize> Factor<S, N> {
 
 /// `LENGTH` entries from `from` on.
 #[inline(always)]
-fn part<S: Real, const N: usize, const LENGTH: usize>(row: &[S; N], from: usize) -> [S; LENGTH] {
+pub(crate) fn part<S: Real, const N: usize, const LENGTH: usize>(row: &[S; N], from: usize) -> [S; LENGTH] {
     *row[from..].first_chunk().expect("the blocks lie within the matrix")
 }
 

@@ -1,6 +1,7 @@
 //! What happened, in numbers: the JSON of `--report`.
 
 use super::job::{Input, RespondJob};
+use glam::DVec3;
 use serde::Serialize;
 use sinew_body::humanoid::{Node, Reduction};
 use sinew_motion::formats::MotionFile;
@@ -69,6 +70,10 @@ pub struct PushReport {
     pub peak_deflection_deg: BTreeMap<String, f64>,
     /// From the end of the push until every joint stays within 2 degrees, up to the next push \[s\]; null if never.
     pub recovered_after_s: Option<f64>,
+    /// How far a stance ankle leaves the input's, in the ground's frame, until the next push \[m\].
+    pub stance_deviation_max_m: f64,
+    /// Whether every number of the answer is finite.
+    pub finite: bool,
 }
 
 impl RespondReport {
@@ -90,13 +95,15 @@ impl RespondReport {
         let disturbances = job.pushes.iter().map(|push| (push.at_secs, push.for_secs));
         let disturbances = disturbances.chain(job.ground.iter().map(|jerk| (jerk.at_secs, jerk.for_secs)));
         let last_end = disturbances.clone().map(|(at, lasts)| at + lasts).fold(f64::NEG_INFINITY, f64::max);
+        let finite = pushed.is_finite() && clip.first_non_finite().is_none();
+        let stance = StanceDeviation::of(humanoid, input, clip, pushed, reduction);
         let pushes = job
             .pushes
             .iter()
             .enumerate()
             .map(|(index, push)| {
                 let next = disturbances.clone().map(|(at, _)| at).filter(|&at| at > push.at_secs).fold(end, f64::min);
-                PushReport::of(push, pushed.forces()[index].map(|force| force.to_array()), &timeline, next)
+                PushReport::of(push, pushed.forces()[index], &timeline, &stance, finite, next)
             })
             .collect();
         RespondReport {
@@ -117,14 +124,21 @@ impl RespondReport {
             peak_deflection_deg: timeline.peaks(f64::NEG_INFINITY, end),
             largest_departure_deg: largest_departure(pushed).to_degrees(),
             recovered_after_s: (last_end > f64::NEG_INFINITY).then(|| timeline.recovered(last_end, end)).flatten(),
-            stance_deviation_max_m: stance_deviation(humanoid, input, clip, pushed, reduction),
-            finite: pushed.is_finite() && clip.first_non_finite().is_none(),
+            stance_deviation_max_m: stance.largest(f64::NEG_INFINITY, end),
+            finite,
         }
     }
 }
 
 impl PushReport {
-    fn of(push: &Push, world_force_n: Option<[f64; 3]>, timeline: &Timeline, next_secs: f64) -> PushReport {
+    fn of(
+        push: &Push,
+        world_force_n: Option<DVec3>,
+        timeline: &Timeline,
+        stance: &StanceDeviation,
+        finite: bool,
+        next_secs: f64,
+    ) -> PushReport {
         PushReport {
             part: push.part.name().to_owned(),
             force_n: push.force_n.to_array(),
@@ -132,11 +146,13 @@ impl PushReport {
                 PushFrame::Facing => "facing".to_owned(),
                 PushFrame::World => "world".to_owned(),
             },
-            world_force_n,
+            world_force_n: world_force_n.map(|force| force.to_array()),
             at_s: push.at_secs,
             for_s: push.for_secs,
             peak_deflection_deg: timeline.peaks(push.at_secs, next_secs),
             recovered_after_s: world_force_n.and_then(|_| timeline.recovered(push.at_secs + push.for_secs, next_secs)),
+            stance_deviation_max_m: stance.largest(push.at_secs, next_secs),
+            finite,
         }
     }
 }
@@ -193,22 +209,35 @@ impl Timeline {
     }
 }
 
-/// How far a stance ankle leaves the input's \[m\].
-fn stance_deviation(humanoid: &Humanoid, input: &Input, clip: &Clip, track: &Track, reduction: &Reduction) -> f64 {
-    let standing = contacts(&input.clip, humanoid);
-    let ankles = [(Side::Left, Part::LeftFoot), (Side::Right, Part::RightFoot)];
-    let (mut before, mut after) = (Vec::new(), Vec::new());
-    let mut largest: f64 = 0.0;
-    for frame in input.first_frame..clip.frames() {
-        input.clip.world_into(frame, &mut before);
-        clip.world_into(frame, &mut after);
-        let ground = track.deviation_at(frame as f64 * clip.frame_time_secs()).ground_shift / reduction.scale();
-        for (side, part) in ankles {
-            if let (true, Some(ankle)) = (standing.side(side)[frame], humanoid.joint(part)) {
-                let gap = after[ankle].translation - before[ankle].translation - ground;
-                largest = largest.max(gap.length());
+/// How far stance ankles leave the input's over time.
+struct StanceDeviation {
+    /// Time \[s\] and distance \[m\].
+    rows: Vec<(f64, f64)>,
+}
+
+impl StanceDeviation {
+    fn of(humanoid: &Humanoid, input: &Input, clip: &Clip, track: &Track, reduction: &Reduction) -> StanceDeviation {
+        let standing = contacts(&input.clip, humanoid);
+        let ankles = [(Side::Left, Part::LeftFoot), (Side::Right, Part::RightFoot)];
+        let (mut before, mut after) = (Vec::new(), Vec::new());
+        let mut rows = Vec::new();
+        for frame in input.first_frame..clip.frames() {
+            input.clip.world_into(frame, &mut before);
+            clip.world_into(frame, &mut after);
+            let secs = frame as f64 * clip.frame_time_secs();
+            let ground = track.deviation_at(secs).ground_shift / reduction.scale();
+            for (side, part) in ankles {
+                if let (true, Some(ankle)) = (standing.side(side)[frame], humanoid.joint(part)) {
+                    let gap = after[ankle].translation - before[ankle].translation - ground;
+                    rows.push((secs, gap.length()));
+                }
             }
         }
+        StanceDeviation { rows }
     }
-    largest
+
+    fn largest(&self, from_secs: f64, to_secs: f64) -> f64 {
+        let rows = self.rows.iter().filter(|(secs, _)| (from_secs..to_secs).contains(secs));
+        rows.map(|(_, gap)| *gap).fold(0.0, f64::max)
+    }
 }
