@@ -229,7 +229,8 @@ fn on_the_files_own_skeleton_stance_ankles_stay_within_a_millimetre_too() {
     let failures: Vec<String> = work(&common::WALKS, |name| {
         let file = read(&mocap.join(name));
         [Part::LeftHand, Part::Head, Part::Chest].map(|part| {
-            let pushes = [(2.0, [0.0, 0.0, -1.0]), (4.3, [1.0, 0.0, 0.0]), (6.6, [0.0, 0.0, 1.0]), (8.9, [-1.0, 0.0, 0.0])];
+            let pushes =
+                [(2.0, [0.0, 0.0, -1.0]), (4.3, [1.0, 0.0, 0.0]), (6.6, [0.0, 0.0, 1.0]), (8.9, [-1.0, 0.0, 0.0])];
             let pushes = pushes.map(|(at_secs, way)| Push {
                 part,
                 force_n: glam::DVec3::from_array(way) * 100.0,
@@ -270,9 +271,8 @@ fn the_ground_carries_the_body_off_and_its_upper_part_lags_and_recovers() {
         let speed = (deviations[last].ground_shift - deviations[last - 60].ground_shift).x;
         assert!((speed - 0.8).abs() < 1e-6, "{name}: {speed}");
         // While the ground jerks to +x the head stays behind, towards -x, of where the ground alone would carry it.
-        let head = |track: &Track, index: usize| {
-            track.poses()[index].positions(answer.reduction.body())[Node::Head.index()]
-        };
+        let head =
+            |track: &Track, index: usize| track.poses()[index].positions(answer.reduction.body())[Node::Head.index()];
         let lag = (126..150).map(|index| {
             (head(&answer.pushed, index) - head(&answer.unpushed, index) - deviations[index].ground_shift).x
         });

@@ -132,7 +132,8 @@ fn another_clips_coordinates_change_the_answer_and_it_still_recovers() {
     let at = folder.path();
     let sneak = clip.with_file_name("120_08_sneak.bvh");
     respond(at, &clip, &format!("--repeat 8 --push {PUSH} -o own.bvh --report own.json")).done();
-    respond(at, &clip, &format!("--repeat 8 --push {PUSH} --basis {} -o lent.bvh --report lent.json", sneak.display())).done();
+    respond(at, &clip, &format!("--repeat 8 --push {PUSH} --basis {} -o lent.bvh --report lent.json", sneak.display()))
+        .done();
     assert!(std::fs::read(at.join("own.bvh")).unwrap() != std::fs::read(at.join("lent.bvh")).unwrap());
     assert!(json(&at.join("lent.json"))["pushes"][0]["recovered_after_s"].as_f64().unwrap() < 6.0);
 }
@@ -203,7 +204,8 @@ fn what_excludes_each_other_or_is_out_of_range_is_said() {
         let ran = sinew(at, ["respond".as_ref(), clip.as_os_str(), "--push".as_ref(), push.as_ref()]);
         ran.refused(&["--push"]);
     }
-    sinew(at, ["respond".as_ref(), clip.as_os_str(), "--platform".as_ref(), "accel=1:2".as_ref()]).refused(&["--platform"]);
+    sinew(at, ["respond".as_ref(), clip.as_os_str(), "--platform".as_ref(), "accel=1:2".as_ref()])
+        .refused(&["--platform"]);
 }
 
 #[test]
