@@ -37,7 +37,8 @@ fn inspect_json_has_the_promised_keys_on_every_file() {
         check(
             "joints",
             value["joints"].as_array().is_some_and(|joints| {
-                let fine = |joint: &Value| joint["name"].is_string() && (joint["part"].is_string() || joint["part"].is_null());
+                let fine =
+                    |joint: &Value| joint["name"].is_string() && (joint["part"].is_string() || joint["part"].is_null());
                 let parts = joints.iter().filter(|joint| joint["part"].is_string()).count();
                 !joints.is_empty() && joints.iter().all(fine) && (!body || parts >= 13)
             }),
@@ -132,10 +133,13 @@ fn a_clip_converts_into_every_format_that_is_written_and_reads_the_same() {
     let at = folder.path();
     let source = mocap.join("cmu_bvh_60hz_trimmed/35_01_walk.bvh");
     for name in ["walk.bvh", "walk.glb", "walk.gltf"] {
-        sinew(at, [source.as_os_str(), name.as_ref()].into_iter().fold(vec!["convert".as_ref()], |mut all, next| {
-            all.push(next);
-            all
-        }))
+        sinew(
+            at,
+            [source.as_os_str(), name.as_ref()].into_iter().fold(vec!["convert".as_ref()], |mut all, next| {
+                all.push(next);
+                all
+            }),
+        )
         .done();
         let ran = sinew(at, ["inspect", name, "--json"]).done();
         let value: Value = serde_json::from_str(&ran.out).unwrap();
