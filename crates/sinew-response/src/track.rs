@@ -116,6 +116,10 @@ impl Track {
         if fraction > 1.0 - 1e-6 {
             return self.deviations[index + 1];
         }
+        // A cubic would begin to bend one pose before a push: where nothing deviates, nothing is touched.
+        if self.deviations[index..=index + 1].iter().all(|deviation| *deviation == Deviation::NONE) {
+            return Deviation::NONE;
+        }
         let around = [index.saturating_sub(1), index, index + 1, (index + 2).min(last)];
         Deviation::cubic(around.map(|index| &self.deviations[index]), fraction)
     }

@@ -33,8 +33,8 @@ fn yields(case: &Case, compliance: f64) -> Yields {
             sum += outcome.peak();
             count += 1.0;
             // A clip that nobody can repeat may end before the body is back; then it must be on its way.
-            let back = outcome.recovered_secs.is_some()
-                || outcome.looked_secs < 6.0 && outcome.last_deg < 0.5 * outcome.peak();
+            let ends = outcome.looked_secs < 6.0;
+            let back = outcome.recovered_secs.is_some() || ends && outcome.last_deg < 0.8 * outcome.peak();
             if !outcome.finite || !back {
                 lost.push(format!(
                     "{} at {compliance} (used {:.2}): {part} to the {direction} at phase {phase}: {:.1} of {:.1} degrees left after {:.1} s",

@@ -47,7 +47,9 @@ impl Case {
                 let times = 3 + (window_secs / secs(last - first)).ceil() as usize;
                 let repeated = repeat(&file.clip, humanoid, (first, last), times);
                 first_frame = 0;
-                (repeated.clip, Some((0.0, secs(last - first))), times)
+                // A round in the middle, as `respond` takes.
+                let middle = times / 2 * (last - first);
+                (repeated.clip, Some((secs(middle), secs(middle + last - first))), times)
             }
             Some((first, last)) => (file.clip.clone(), Some((secs(first.max(first_frame)), secs(last))), 0),
             None => (file.clip.clone(), None, 0),

@@ -1,4 +1,5 @@
 //! The command line as its user runs it.
+#![allow(dead_code, reason = "each test file uses a part")]
 
 use serde_json::Value;
 use std::ffi::OsStr;

@@ -85,7 +85,7 @@ pub fn mean<'a>(runs: impl Iterator<Item = &'a Run>, of: impl Fn(&Outcome) -> f6
 #[track_caller]
 pub fn none_of(total: usize, failures: &[String]) {
     let mut text = String::new();
-    for failure in failures.iter().take(12) {
+    for failure in failures.iter().take(30) {
         let _ = writeln!(text, "  {failure}");
     }
     assert!(failures.is_empty(), "{} of {total} fail:\n{text}", failures.len());
