@@ -60,7 +60,8 @@ impl Span {
         let frames = |secs: f64| (secs / time_step_secs).clamp(0.0, 1e9);
         // An onset between two frames acts from the next; rounding must not move one that lies on a frame.
         let first = (frames(at_secs - start_secs) - 1e-6).ceil().max(0.0) as usize;
-        let exact = frames(for_secs);
+        // What lies before the motion begins is lost.
+        let exact = frames(for_secs - (start_secs - at_secs).max(0.0));
         let count = exact.round().max(if exact > 0.0 { 1.0 } else { 0.0 });
         Span { first, count: count as usize, scale: if count > 0.0 { exact / count } else { 0.0 } }
     }
@@ -110,6 +111,14 @@ mod tests {
         let blink = Span::of(0.5, 0.001, 0.0, 1.0 / 60.0);
         assert_eq!((blink.first, blink.count), (30, 1));
         assert!((blink.scale - 0.06).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_lies_before_the_motion_is_lost() {
+        let over = Span::of(0.0, 0.1, 0.2, 1.0 / 60.0);
+        assert_eq!(over.count, 0);
+        let half = Span::of(0.1, 0.2, 0.2, 1.0 / 60.0);
+        assert_eq!((half.first, half.count), (0, 6));
     }
 
     #[test]

@@ -28,7 +28,7 @@ pub struct Inspection {
     pub no_body: Option<String>,
     /// The joints in the file's order.
     pub joints: Vec<JointReport>,
-    /// Mass of each part of an 80 kg person \[kg\].
+    /// Mass of each part of the person \[kg\].
     pub mass_kg: BTreeMap<String, f64>,
     /// First and last frame of the gait cycle, from 0; null where nobody walks.
     pub cycle: Option<(usize, usize)>,
@@ -145,7 +145,7 @@ pub fn inspect(file: &MotionFile, person: Person) -> Inspection {
                 inspection.actuation_n_m = basis.eigenvalues().iter().map(|value| value.sqrt()).collect();
                 let largest = inspection.actuation_n_m[0];
                 inspection.quiet_coordinates =
-                    inspection.actuation_n_m.iter().filter(|&&torque| torque < QUIET * largest).count();
+                    inspection.actuation_n_m.iter().filter(|&&torque| torque <= QUIET * largest).count();
             }
         }
         Err(error) => inspection.notes.push(error.to_string()),

@@ -6,6 +6,9 @@ use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
+/// The frame rate that readers, ours too, take an AMC to have \[Hz\].
+const AMC_FPS: f64 = 120.0;
+
 /// How a file is to be read.
 #[derive(Clone, Debug, Default)]
 pub struct ReadOptions {
@@ -161,7 +164,16 @@ pub fn write(path: &Path, job: &WriteJob, body: &[BodyShape]) -> Result<Vec<Note
                     write_whole(&beside, &skeleton)?;
                 }
             }
-            amc::write_nearest(&mut bytes, job).map(|lost| notes = lost)
+            let written = amc::write_nearest(&mut bytes, job).map(|lost| notes = lost);
+            let again = matches!(job.source, Some(Source { document: Document::Amc(_), .. }));
+            if !again && (job.clip.fps() - AMC_FPS).abs() > 0.5 {
+                notes.push(Note::new(format!(
+                    "an AMC does not state its frame rate, and readers take {AMC_FPS}: this motion has {:.3} frames per second; \
+                     --fps {AMC_FPS} of `sinew convert` makes it fit",
+                    job.clip.fps()
+                )));
+            }
+            written
         }
         format @ (Format::Gltf | Format::Glb) => gltf::write(&mut bytes, job, format, body),
         Format::Fbx => Err(Error::new(

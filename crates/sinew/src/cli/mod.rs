@@ -7,7 +7,9 @@ mod push_argument;
 mod respond;
 
 use clap::{Parser, Subcommand};
+use sinew::body::humanoid::ReductionError;
 use sinew::motion::formats::ReadOptions;
+use sinew::respond::RespondError;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -76,7 +78,15 @@ pub(crate) fn run() -> ExitCode {
         Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("sinew: {error:#}");
-            ExitCode::from(1)
+            ExitCode::from(if is_wrong_usage(&error) { 2 } else { 1 })
         }
     }
+}
+
+/// Whether an error is about what was asked for, whatever the file.
+fn is_wrong_usage(error: &anyhow::Error) -> bool {
+    matches!(
+        error.downcast_ref::<RespondError>(),
+        Some(RespondError::Settings(_) | RespondError::Body(ReductionError::Person { .. }))
+    )
 }

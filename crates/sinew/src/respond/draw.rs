@@ -104,10 +104,11 @@ fn panels(answer: &Answer, pushes: &[Push], shapes: &[(Node, usize, Shape)], fro
             for joint in &mut ours {
                 joint.translation -= ground;
             }
-            let acting = |push: &&Push| {
-                // A push shorter than the time between panels is shown in the panel that it falls in.
-                let step = (to - from) / (PANELS - 1) as f64;
-                time_secs + 0.5 * step > push.at_secs && time_secs - 0.5 * step < push.at_secs + push.for_secs
+            // A push that falls between two panels is shown in the nearer one.
+            let step = (to - from) / (PANELS - 1) as f64;
+            let acting = |push: &Push| {
+                let slack = if push.for_secs < step { 0.5 * (step - push.for_secs) } else { 0.0 };
+                (push.at_secs - slack..=push.at_secs + push.for_secs + slack).contains(&time_secs)
             };
             let arrows = pushes.iter().enumerate().filter(|(_, push)| acting(push)).filter_map(|(index, push)| {
                 let force_n = answer.pushed.forces()[index]?;
