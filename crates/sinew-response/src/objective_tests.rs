@@ -97,7 +97,8 @@ impl Case {
         let mut hessian = DMatrix::zeros(N, N);
         let mut right = DVector::zeros(N);
         for i in 0..N {
-            let damp = (w.damp[i] / dt).powi(2);
+            let damp = w.damp[i] / dt;
+            let damp = damp * damp;
             let hold = if self.holds { 1e12 * self.held[i] } else { 0.0 };
             hessian[(i, i)] += w.track * w.track + damp + hold;
             right[i] -= w.track * w.track * self.deviation[i];
@@ -107,7 +108,8 @@ impl Case {
             }
         }
         let others = DMatrix::identity(N, N) - e.transpose() * &e;
-        let weight = (self.reflex / dt).powi(2);
+        let weight = self.reflex / dt;
+        let weight = weight * weight;
         hessian += &a * &others * &a * weight;
         right -= &a * &others * (column(&self.torque) - column(&self.torque_before)) * weight;
         let per_angle = DMatrix::from_diagonal(&DVector::from_fn(N, |i, _| w.stiffness[i] + w.damping[i] / dt));

@@ -15,6 +15,9 @@ use sinew_body::humanoid::{Body, Deviation, LEGS, Limit, Node, Pose, UPPER_DOFS,
 /// A jump of the push's generalised force by more than this is a new perturbation \[N m for an 80 kg body\].
 const STARTLE_N_M: f64 = 1.0;
 
+/// ... beyond this share of the force that is there already: under a lasting push the arm of a force changes all the time.
+const STARTLE_SHARE: f64 = 0.3;
+
 /// A jump of the ground's acceleration by more than this is one too \[m/s²\].
 const STARTLE_M_PER_S2: f64 = 1.0;
 
@@ -323,7 +326,8 @@ impl State {
     fn reflex(&mut self, load: &Coordinates24, ground: DVec3, mass_kg: f64, dt: f64) -> f64 {
         let frames = reflex_frames(dt);
         let jump: f64 = load.iter().zip(&self.load_before).map(|(now, before)| (now - before) * (now - before)).sum();
-        let startled = jump.sqrt() > STARTLE_N_M * mass_kg / REFERENCE_MASS_KG
+        let before = self.load_before.iter().map(|before| before * before).sum::<f64>().sqrt();
+        let startled = jump.sqrt() > STARTLE_N_M * mass_kg / REFERENCE_MASS_KG + STARTLE_SHARE * before
             || (ground - self.ground_acceleration).length() > STARTLE_M_PER_S2;
         self.load_before = *load;
         self.ground_acceleration = ground;

@@ -59,7 +59,7 @@ impl Track {
             for (index, span) in pushes.iter().enumerate().filter(|(_, span)| span.holds(now)) {
                 let shown = &track.poses[now];
                 let force = forces[index].get_or_insert_with(|| happens.pushes[index].on(shown, span.scale));
-                track.forces[index] = Some(force.force_n);
+                track.forces[index] = Some(force.force_n / span.scale);
                 acting.push(*force);
             }
             let mut ground = DVec3::ZERO;

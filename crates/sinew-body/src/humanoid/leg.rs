@@ -1,10 +1,9 @@
 //! Two-bone inverse kinematics of a leg, as a deviation from the input's own leg.
 //!
-//! The input's leg is turned as a whole so that it points at the wanted ankle, then its knee is opened or closed about
-//! the input's own bending axis. Without a change of hip or ankle the result is the input's, exactly.
+//! The input's leg is turned as a whole so that it points at the wanted ankle, then its knee is opened or closed. Without a
+//! change of hip or ankle the result is the input's, exactly.
 
-use super::rotation::exp;
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 /// A leg in the world: where its joints are and which way its knee bends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,37 +18,88 @@ pub struct LegPose {
     pub knee_axis: DVec3,
 }
 
-/// Displacement of hip and ankle over which a knee that the input bends backward comes round to bend forward \[m\].
-const ROUND_M: f64 = 2e-3;
+/// Displacement of hip and ankle over which a knee that the input bends backward, or hardly at all, comes to bend about its
+/// hinge \[m\].
+const ROUND_M: f64 = 5e-4;
 
-/// How much the hinge axis counts against the plane that the leg is in \[sine of the flexion\]: below a degree or two of
-/// flexion the plane is noise.
-const HINGE_SHARE: f64 = 0.03;
-
-/// Each round corrects what the one before left, which shrinks with its square.
-const ROUNDS: usize = 3;
+/// Sines of the angle between thigh and line to the ankle up to which, and from which on, the input's leg has a plane of its
+/// own: in a straighter leg the knee's side is noise.
+const STRAIGHT: (f64, f64) = (0.005, 0.015);
+const BENT: (f64, f64) = (0.04, 0.17);
 
 /// The input's thigh and shank turned in the world, `world_from_world` deltas, so that the leg, its hip at `hip`, puts
 /// its ankle at `ankle`; the leg stretches as far as it can when the ankle is out of reach.
+///
+/// The knee's place follows from the lengths but for a turn about the line from hip to ankle: a bent knee keeps the input's, one
+/// that is straight or bent backward turns to the front as hip or ankle move. The thigh's and the shank's own turn about
+/// themselves keep the hinge axis where the leg as a whole takes it.
 pub fn solve_leg(input: &LegPose, hip: DVec3, ankle: DVec3) -> (DQuat, DQuat) {
     let moved = (hip - input.hip).length() + (ankle - input.ankle).length();
     if moved == 0.0 {
         return (DQuat::IDENTITY, DQuat::IDENTITY);
     }
-    if flexion(input) < 0.0 {
-        return come_round(input, hip, ankle, (moved / ROUND_M).min(1.0)).unwrap_or_default();
+    place_knee(input, hip, ankle, smoothstep(0.0, ROUND_M, moved)).unwrap_or_default()
+}
+
+/// `None` for a leg without length.
+fn place_knee(leg: &LegPose, hip: DVec3, ankle: DVec3, share: f64) -> Option<(DQuat, DQuat)> {
+    let (thigh_line, shank_line) = (leg.knee - leg.hip, leg.ankle - leg.knee);
+    let (thigh, shank) = (thigh_line.length(), shank_line.length());
+    let old_line = (leg.ankle - leg.hip).try_normalize()?;
+    let new_line = (ankle - hip).try_normalize()?;
+    if thigh < 1e-6 || shank < 1e-6 {
+        return None;
     }
-    let (mut thigh, mut shank) = (DQuat::IDENTITY, DQuat::IDENTITY);
-    let mut leg = *input;
-    for _ in 0..ROUNDS {
-        let Some((thigh_turn, shank_turn)) = bend(&leg, hip, ankle) else { break };
-        thigh = (thigh_turn * thigh).normalize();
-        shank = (shank_turn * shank).normalize();
-        let knee = hip + thigh * (input.knee - input.hip);
-        let ankle = knee + shank * (input.ankle - input.knee);
-        leg = LegPose { hip, knee, ankle, knee_axis: (shank * input.knee_axis).normalize() };
+    // Where the input's knee is around its line: 0 in front, as the hinge would have it.
+    let front = old_line.cross(leg.knee_axis).try_normalize()?;
+    let side = old_line.cross(front);
+    let off_line = thigh_line - old_line * thigh_line.dot(old_line);
+    let sine = off_line.length() / thigh;
+    let mut around = libm::atan2(off_line.dot(side), off_line.dot(front)) * smoothstep(STRAIGHT.0, STRAIGHT.1, sine);
+    if around < -BEHIND.1 {
+        around += 2.0 * std::f64::consts::PI;
     }
-    (thigh, shank)
+    let unsure = (1.0 - smoothstep(BENT.0, BENT.1, sine)).max(smoothstep(BEHIND.0, BEHIND.1, around.abs()));
+    let (sin_around, cos_around) = libm::sincos(around * (1.0 - share * unsure));
+
+    let turn = DQuat::from_rotation_arc(old_line, new_line);
+    let length = (ankle - hip).length();
+    let (sin, cos) = libm::sincos(hip_angle(thigh, shank, flexion_for(thigh, shank, length)));
+    let out = (turn * front) * cos_around + (turn * side) * sin_around;
+    let knee = hip + new_line * (thigh * cos) + out * (thigh * sin);
+    let axis = turn * leg.knee_axis;
+    let thigh_turn = along(knee - hip, axis)? * along(turn * thigh_line, axis)?.conjugate() * turn;
+    let shank_turn = along(ankle - knee, axis)? * along(turn * shank_line, axis)?.conjugate() * turn;
+    Some((thigh_turn.normalize(), shank_turn.normalize()))
+}
+
+/// Angles around the leg's line between which a knee counts as bent aside rather than backward \[rad\].
+const BEHIND: (f64, f64) = (1.0, 2.1);
+
+/// The frame of a bone with this hinge axis: its −Y along the bone, its X as close to the axis as that allows.
+fn along(bone: DVec3, axis: DVec3) -> Option<DQuat> {
+    let y = -bone.try_normalize()?;
+    let x = (axis - y * axis.dot(y)).try_normalize()?;
+    Some(DQuat::from_mat3(&DMat3::from_cols(x, y, x.cross(y))).normalize())
+}
+
+/// The flexion \[rad\] at which a leg is so long.
+fn flexion_for(thigh: f64, shank: f64, length: f64) -> f64 {
+    let length = length.clamp((thigh - shank).abs() + 1e-9, thigh + shank);
+    let at_knee = (thigh * thigh + shank * shank - length * length) / (2.0 * thigh * shank);
+    std::f64::consts::PI - libm::acos(at_knee.clamp(-1.0, 1.0))
+}
+
+/// The angle at the hip from the line to the ankle to the thigh \[rad\].
+fn hip_angle(thigh: f64, shank: f64, flexion: f64) -> f64 {
+    let (sin, cos) = libm::sincos(flexion);
+    libm::atan2(shank * sin, thigh + shank * cos)
+}
+
+/// From 0 at `from` to 1 at `to`, with flat ends.
+fn smoothstep(from: f64, to: f64, value: f64) -> f64 {
+    let share = ((value - from) / (to - from)).clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
 }
 
 /// How straight a leg may get \[1 of its length\] unless the input's is straighter: knees do not snap.
@@ -85,70 +135,18 @@ pub fn shift_within_reach(legs: &[LegPose; 2], hips: [DVec3; 2], shift: DVec3) -
     shift
 }
 
-/// The knee's flexion \[rad\], negative when it is bent backward.
-fn flexion(leg: &LegPose) -> f64 {
-    let (thigh, shank) = (leg.knee - leg.hip, leg.ankle - leg.knee);
-    let normal = thigh.cross(shank);
-    let angle = libm::atan2(normal.length(), thigh.dot(shank));
-    if normal.dot(leg.knee_axis) < 0.0 { -angle } else { angle }
-}
-
-/// The flexion \[rad\] at which a leg is so long.
-fn flexion_for(thigh: f64, shank: f64, length: f64) -> f64 {
-    let length = length.clamp((thigh - shank).abs() + 1e-9, thigh + shank);
-    let at_knee = (thigh * thigh + shank * shank - length * length) / (2.0 * thigh * shank);
-    std::f64::consts::PI - libm::acos(at_knee.clamp(-1.0, 1.0))
-}
-
-/// The angle at the hip from the line to the ankle to the thigh \[rad\].
-fn hip_angle(thigh: f64, shank: f64, flexion: f64) -> f64 {
-    let (sin, cos) = libm::sincos(flexion);
-    libm::atan2(shank * sin, thigh + shank * cos)
-}
-
-/// A leg that the input bends backward: with a growing `share` of displacement its knee goes half around the line from hip to
-/// ankle, so that it ends up in front without ever stretching the leg.
-fn come_round(leg: &LegPose, hip: DVec3, ankle: DVec3, share: f64) -> Option<(DQuat, DQuat)> {
-    let (thigh_line, shank_line) = (leg.knee - leg.hip, leg.ankle - leg.knee);
-    let (thigh, shank) = (thigh_line.length(), shank_line.length());
-    let old_line = (leg.ankle - leg.hip).try_normalize()?;
-    let new_line = (ankle - hip).try_normalize()?;
-    let turn = DQuat::from_rotation_arc(old_line, new_line);
-    let behind = turn * (thigh_line - old_line * thigh_line.dot(old_line)).try_normalize()?;
-    let aside = new_line.cross(behind);
-    let angle = hip_angle(thigh, shank, flexion_for(thigh, shank, (ankle - hip).length()));
-    let (sin, cos) = libm::sincos(angle);
-    let (across, back) = libm::sincos(std::f64::consts::PI * share * share * (3.0 - 2.0 * share));
-    let knee = hip + new_line * (thigh * cos) + (behind * back + aside * across) * (thigh * sin);
-    let arc = |from: DVec3, to: DVec3| Some(DQuat::from_rotation_arc(from.try_normalize()?, to.try_normalize()?));
-    let reached = knee + (ankle - knee).try_normalize()? * shank;
-    Some((arc(turn * thigh_line, knee - hip)? * turn, arc(turn * shank_line, reached - knee)? * turn))
-}
-
-/// One round: turns the leg towards the ankle as a whole, then bends it. `None` for a leg without length.
-fn bend(leg: &LegPose, hip: DVec3, ankle: DVec3) -> Option<(DQuat, DQuat)> {
-    let (thigh_line, shank_line) = (leg.knee - leg.hip, leg.ankle - leg.knee);
-    let (thigh, shank) = (thigh_line.length(), shank_line.length());
-    let (old_line, new_line) = (leg.ankle - leg.hip, ankle - hip);
-    let (old_length, new_length) = (old_line.length(), new_line.length());
-    if thigh < 1e-6 || shank < 1e-6 || old_length < 1e-6 || new_length < 1e-6 {
-        return None;
-    }
-    let turn = DQuat::from_rotation_arc(old_line / old_length, new_line / new_length);
-    let old_flexion = flexion(leg);
-    let new_flexion = flexion_for(thigh, shank, new_length);
-    let at_hip = |flexion: f64| hip_angle(thigh, shank, flexion);
-    let normal = thigh_line.cross(shank_line) / (thigh * shank);
-    let axis = turn * (normal + leg.knee_axis * HINGE_SHARE).try_normalize()?;
-    let hip_turn = at_hip(old_flexion) - at_hip(new_flexion);
-    let shank_turn = exp(axis * (hip_turn + new_flexion - old_flexion)) * turn;
-    Some((exp(axis * hip_turn) * turn, shank_turn))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    /// The knee's flexion \[rad\], negative when it is bent backward.
+    fn flexion(leg: &LegPose) -> f64 {
+        let (thigh, shank) = (leg.knee - leg.hip, leg.ankle - leg.knee);
+        let normal = thigh.cross(shank);
+        let angle = libm::atan2(normal.length(), thigh.dot(shank));
+        if normal.dot(leg.knee_axis) < 0.0 { -angle } else { angle }
+    }
 
     fn leg() -> LegPose {
         LegPose {
@@ -203,9 +201,9 @@ mod tests {
             (knee, flexion(&LegPose { hip, knee, ankle, knee_axis: shank * input.knee_axis }))
         };
         assert!(bent(ROUND_M).1 > 0.05);
-        let knees: Vec<DVec3> = (0..=200).map(|step| bent(f64::from(step) * 1e-5).0).collect();
-        // Ten micrometres of hip never move the knee by more than two millimetres.
-        assert!(knees.windows(2).all(|pair| (pair[1] - pair[0]).length() < 2e-3));
+        let knees: Vec<DVec3> = (0..=500).map(|step| bent(f64::from(step) * 1e-6).0).collect();
+        // A micrometre of hip never moves the knee by more than half a millimetre.
+        assert!(knees.windows(2).all(|pair| (pair[1] - pair[0]).length() < 5e-4));
         assert!((knees[0] - input.knee).length() < 1e-9);
     }
 

@@ -24,6 +24,8 @@ pub(super) struct Convert {
 
 impl Convert {
     pub(super) fn run(&self) -> Result<()> {
+        output::check_places([&self.input].into_iter().chain(&self.reading.skeleton), [&self.output].into_iter())?;
+        output::check_format(&self.output)?;
         let file = MotionFile::read(&self.input, &self.reading.options())?;
         let (clip, rows): (_, Vec<usize>) = match self.fps {
             None => (file.clip.clone(), (0..file.clip.frames()).collect()),

@@ -1,11 +1,11 @@
 //! What goes out: words, files, progress.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
-use sinew::motion::formats::write_whole;
+use sinew::motion::formats::{Format, write_whole};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Prints to standard output; an error when nobody reads any more.
@@ -32,6 +32,43 @@ pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
 pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     make_folder(path)?;
     Ok(write_whole(path, bytes)?)
+}
+
+/// Refuses to write over what is read, or two results to one place: nobody's work is lost by a slip.
+pub(super) fn check_places<'a>(
+    inputs: impl Iterator<Item = &'a PathBuf>,
+    outputs: impl Iterator<Item = &'a PathBuf>,
+) -> Result<()> {
+    // A file that is not there yet is told by its folder and name.
+    let place = |path: &Path| {
+        path.canonicalize().ok().or_else(|| {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            Some(folder.canonicalize().unwrap_or_else(|_| folder.to_owned()).join(path.file_name()?))
+        })
+    };
+    let mut taken: Vec<Option<PathBuf>> = inputs.map(|path| place(path)).collect();
+    let read = taken.len();
+    for path in outputs {
+        let here = place(path);
+        match taken.iter().position(|other| other.is_some() && *other == here) {
+            Some(index) if index < read => {
+                bail!("{}: this would overwrite what is read; write to another file", path.display())
+            }
+            Some(_) => bail!("{}: two results are to go there; give each its own file", path.display()),
+            None => taken.push(here),
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a motion file to write whose format cannot be written, before any work is done.
+pub(super) fn check_format(path: &Path) -> Result<()> {
+    match Format::of(path) {
+        Some(Format::Fbx) | None => {
+            bail!("{}: motion is written as .bvh, .amc (with .asf), .glb or .gltf", path.display())
+        }
+        Some(_) => Ok(()),
+    }
 }
 
 /// Makes the folder that a file is to be in.

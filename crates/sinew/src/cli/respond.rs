@@ -91,6 +91,12 @@ impl Respond {
     pub(super) fn run(&self) -> Result<()> {
         let shows = self.clip.is_none() && self.push.is_empty() && self.platform.is_empty();
         let pushes = if shows { vec![SHOW] } else { self.push.clone() };
+        let inputs = self.clip.iter().chain(&self.basis).chain(&self.reading.skeleton);
+        let outputs = self.output.iter().chain(&self.report).chain(&self.picture);
+        output::check_places(inputs, outputs)?;
+        for path in &self.output {
+            output::check_format(path)?;
+        }
         let bar = output::spinner();
         bar.set_message("reading");
         let file = match &self.clip {
@@ -205,7 +211,7 @@ fn words(answer: &Answer, job: &RespondJob, outputs: &Outputs) -> String {
             push.part, push.frame, push.at_s, push.for_s
         ));
         if push.world_force_n.is_none() {
-            lines.push("  it never acted: the clip ends before it begins".to_owned());
+            lines.push("  it never acted".to_owned());
             continue;
         }
         lines.extend(outcome(&push.peak_deflection_deg, push.recovered_after_s));
@@ -218,7 +224,10 @@ fn words(answer: &Answer, job: &RespondJob, outputs: &Outputs) -> String {
         lines.extend(outcome(&report.peak_deflection_deg, report.recovered_after_s));
     }
     if report.largest_departure_deg < UNCHANGED_DEG {
-        lines.push("nothing disturbs the clip: it passes through unchanged".to_owned());
+        lines.push(match job.repeat {
+            0 => "nothing disturbs the clip: it passes through unchanged".to_owned(),
+            times => format!("nothing disturbs the motion: its cycle plays {times} times as it is"),
+        });
     } else if job.pushes.is_empty() && job.ground.is_empty() {
         lines.push(format!(
             "undisturbed, the {} preset leaves the input by up to {:.1}°",

@@ -104,9 +104,9 @@ pub fn respond(file: &MotionFile, job: &RespondJob, basis_from: Option<&MotionFi
     let unpushed =
         if disturbed { Track::run(&body, &basis, &settings, &motion, Disturbances::default()) } else { pushed.clone() };
     let end_secs = input.clip.duration_secs();
-    for push in job.pushes.iter().filter(|push| push.at_secs > end_secs) {
+    for (push, _) in job.pushes.iter().zip(pushed.forces()).filter(|(_, force)| force.is_none()) {
         notes.push(Note::new(format!(
-            "the push at {} s comes after the clip's end at {end_secs:.2} s; --repeat makes a walk longer",
+            "the push at {} s never acts: the clip ends at {end_secs:.2} s, and a push takes time; --repeat makes a walk longer",
             push.at_secs
         )));
     }

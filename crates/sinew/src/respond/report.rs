@@ -92,7 +92,8 @@ impl RespondReport {
     ) -> RespondReport {
         let timeline = Timeline::of(pushed, unpushed);
         let end = f64::INFINITY;
-        let disturbances = job.pushes.iter().map(|push| (push.at_secs, push.for_secs));
+        let acted = job.pushes.iter().zip(pushed.forces()).filter(|(_, force)| force.is_some());
+        let disturbances = acted.map(|(push, _)| (push.at_secs, push.for_secs));
         let disturbances = disturbances.chain(job.ground.iter().map(|jerk| (jerk.at_secs, jerk.for_secs)));
         let last_end = disturbances.clone().map(|(at, lasts)| at + lasts).fold(f64::NEG_INFINITY, f64::max);
         let finite = pushed.is_finite() && clip.first_non_finite().is_none();
