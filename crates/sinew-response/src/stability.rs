@@ -25,8 +25,8 @@ pub fn growth(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) 
 }
 
 /// Small deviations must shrink to this or less in a second, for the compliance dial to be turned so far: from 20 degrees to 2
-/// in eight seconds.
-const GROWTH_PER_SECOND: f64 = 0.75;
+/// in five seconds.
+const GROWTH_PER_SECOND: f64 = 0.65;
 
 /// Poses in one stretch of a long motion: about a stride.
 const STRETCH: usize = 72;
@@ -58,20 +58,23 @@ pub fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings, motion
     if least.1 <= allowed {
         return asked;
     }
-    let mut above = asked;
+    // Always the same steps, whatever is asked, so that asking for more never gives less.
+    let mut above = Settings::MAX_COMPLIANCE;
     while above > Settings::MIN_COMPLIANCE {
         let below = (above / DIAL_STEP).max(Settings::MIN_COMPLIANCE);
-        let growth = grows(below);
-        if growth <= allowed {
-            let (mut stable, mut unstable) = (below, above);
-            for _ in 0..HALVINGS {
-                let middle = (stable * unstable).sqrt();
-                if grows(middle) <= allowed { stable = middle } else { unstable = middle }
+        if below < asked {
+            let growth = grows(below);
+            if growth <= allowed {
+                let (mut stable, mut unstable) = (below, above);
+                for _ in 0..HALVINGS {
+                    let middle = (stable * unstable).sqrt();
+                    if grows(middle) <= allowed { stable = middle } else { unstable = middle }
+                }
+                return stable.min(asked);
             }
-            return stable;
-        }
-        if growth < least.1 {
-            least = (below, growth);
+            if growth < least.1 {
+                least = (below, growth);
+            }
         }
         above = below;
     }
