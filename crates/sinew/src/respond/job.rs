@@ -106,7 +106,8 @@ pub fn respond(file: &MotionFile, job: &RespondJob, basis_from: Option<&MotionFi
     let end_secs = input.clip.duration_secs();
     for (push, _) in job.pushes.iter().zip(pushed.forces()).filter(|(_, force)| force.is_none()) {
         notes.push(Note::new(format!(
-            "the push at {} s never acts: the clip ends at {end_secs:.2} s, and a push takes time; --repeat makes a walk longer",
+            "the push at {} s never acts: it comes after the clip's end at {end_secs:.2} s, or lasts no time; --repeat makes a walk \
+             longer",
             push.at_secs
         )));
     }
