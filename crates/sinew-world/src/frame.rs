@@ -1,0 +1,123 @@
+//! What is known of a world after a step: all that controllers sense, sinks write and clients are sent.
+
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Node, Pose};
+
+/// Something that can touch or be touched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Entity {
+    /// The ground.
+    Floor,
+    /// A prop, by its place in [`Frame::props`].
+    Prop(usize),
+    /// A part of a character, by its place in [`Frame::characters`].
+    Part(usize, Node),
+}
+
+/// A rigid body's place and motion, in world axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyState {
+    /// A part's joint to its parent, a prop's origin \[m\].
+    pub position: DVec3,
+    /// `world_from_body`.
+    pub rotation: DQuat,
+    /// Centre of mass \[m\].
+    pub centre: DVec3,
+    /// Velocity of the centre of mass \[m/s\].
+    pub velocity: DVec3,
+    /// Angular velocity \[rad/s\].
+    pub angular_velocity: DVec3,
+}
+
+/// Two things that touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The one with the smaller [`Entity`].
+    pub a: Entity,
+    /// The other.
+    pub b: Entity,
+    /// Where, the mean over the contact's points \[m\].
+    pub point: DVec3,
+    /// Impulse on `b` in this step, normal part \[N s\], world axes; `a` gets the opposite.
+    pub impulse: DVec3,
+    /// The pair did not touch in the step before.
+    pub begins: bool,
+}
+
+/// A character after a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CharacterFrame {
+    /// By [`Node::index`].
+    pub parts: [BodyState; Node::COUNT],
+    /// Centre of mass of the whole body \[m\].
+    pub centre_of_mass: DVec3,
+    /// Its velocity \[m/s\].
+    pub centre_velocity: DVec3,
+    /// Where the character faces: a horizontal unit vector.
+    pub facing: DVec3,
+    /// Corners of the support polygon on the ground, counter-clockwise seen from above; empty in the air \[m\].
+    pub support: Vec<DVec3>,
+    /// The body went wrong in this step and was put back.
+    pub was_reset: bool,
+}
+
+/// The world after a step.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Frame {
+    /// Physics steps done.
+    pub step: u64,
+    /// Time since the start \[s\].
+    pub time_secs: f64,
+    /// Characters in the order in which they were added.
+    pub characters: Vec<CharacterFrame>,
+    /// Props in the order in which they were added.
+    pub props: Vec<BodyState>,
+    /// What touches, in a fixed order.
+    pub contacts: Vec<Contact>,
+}
+
+impl BodyState {
+    /// At rest at the origin.
+    pub const REST: BodyState = BodyState {
+        position: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+        centre: DVec3::ZERO,
+        velocity: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
+    };
+
+    /// Velocity of a point of the body \[m/s\].
+    pub fn velocity_at(&self, point: DVec3) -> DVec3 {
+        self.velocity + self.angular_velocity.cross(point - self.centre)
+    }
+}
+
+impl CharacterFrame {
+    /// One part.
+    pub fn part(&self, node: Node) -> &BodyState {
+        &self.parts[node.index()]
+    }
+
+    /// The pose of all parts.
+    pub fn pose(&self) -> Pose {
+        Pose { hips_position: self.parts[0].position, world: self.parts.map(|part| part.rotation) }
+    }
+
+    /// Horizontal unit vector to the character's left.
+    pub fn left(&self) -> DVec3 {
+        DVec3::Y.cross(self.facing)
+    }
+}
+
+impl Frame {
+    /// Contacts that something takes part in.
+    pub fn touching(&self, entity: Entity) -> impl Iterator<Item = &Contact> {
+        self.contacts.iter().filter(move |contact| contact.a == entity || contact.b == entity)
+    }
+
+    /// Whether two things touch.
+    pub fn are_touching(&self, one: Entity, other: Entity) -> bool {
+        let (a, b) = if one <= other { (one, other) } else { (other, one) };
+        self.contacts.iter().any(|contact| contact.a == a && contact.b == b)
+    }
+}
