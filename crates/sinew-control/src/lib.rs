@@ -1,7 +1,12 @@
 //! What drives a body in a world.
 
 mod command;
+pub mod graph;
+pub mod pose;
 mod target;
+pub mod tracker;
 
 pub use command::{Action, Command, Layer};
+pub use graph::GraphSpec;
+pub use pose::PoseSpec;
 pub use target::{JointTarget, Target};

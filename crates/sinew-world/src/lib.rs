@@ -1,5 +1,30 @@
-//! The rigid-body world in our words.
+//! The rigid-body world in our words: characters, props, contacts, attachments, modified physics.
+//!
+//! The rigid-body library (Rapier) stays behind this crate: none of its types is seen outside, so that another solver can take
+//! its place. This crate knows nothing of where poses come from.
 
+mod attachment;
+mod character;
+mod drive;
+mod engine;
 mod frame;
+mod joint;
+mod plane;
+mod prop;
+mod ragdoll;
+mod settings;
+mod solid;
+mod spec;
+mod support;
+mod watch;
+mod world;
 
+pub use attachment::Held;
+pub use drive::{Drive, Pin};
 pub use frame::{BodyState, CharacterFrame, Contact, Entity, Frame};
+pub use ragdoll::{hips_over_soles_m, never_collide, outboard_inertias, part_solid, sole_m};
+pub use settings::{Surface, WorldSettings};
+pub use solid::{Form, RING_PIECES, Solid, ring_corners};
+pub use spec::{CharacterSpec, Motion, PropSpec, SpecError};
+pub use support::margin;
+pub use world::{MAX_FORCE_N, PartShape, World};

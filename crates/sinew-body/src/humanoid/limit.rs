@@ -112,7 +112,7 @@ impl Limit {
     }
 
     /// Length of the swing relative to the ellipse's radius in its direction.
-    fn swing_ratio(&self, x: f64, z: f64) -> f64 {
+    pub fn swing_ratio(&self, x: f64, z: f64) -> f64 {
         let mut limit = *self;
         let (a, b) = (x / *limit.half_axis_x(x), z / *limit.half_axis_z(z));
         (a * a + b * b).sqrt()

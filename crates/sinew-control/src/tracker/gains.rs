@@ -1,0 +1,91 @@
+//! Springs of joints, given as frequencies, so that the same numbers suit any body.
+
+use serde::{Deserialize, Serialize};
+use sinew_body::humanoid::{Body, Node, Pose};
+use std::f64::consts::TAU;
+
+/// How a joint's spring is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointGain {
+    /// Frequency at which what hangs from the joint would swing on the spring alone \[Hz\]; default 3.
+    #[serde(default = "frequency")]
+    pub frequency_hz: f64,
+    /// Damping ratio of that swing \[1\]; default 1.
+    #[serde(default = "ratio")]
+    pub damping_ratio: f64,
+    /// The joint also carries what stands on it: the load's m g h is added to the stiffness, times this factor \[1\].
+    /// Default 1 for ankles, knees, hips and chest, else 0.
+    #[serde(default)]
+    pub load: Option<f64>,
+}
+
+fn frequency() -> f64 {
+    JointGain::DEFAULT.frequency_hz
+}
+
+fn ratio() -> f64 {
+    JointGain::DEFAULT.damping_ratio
+}
+
+impl JointGain {
+    /// Firm, without overshoot.
+    pub const DEFAULT: JointGain = JointGain { frequency_hz: 3.0, damping_ratio: 1.0, load: None };
+}
+
+impl Default for JointGain {
+    fn default() -> JointGain {
+        JointGain::DEFAULT
+    }
+}
+
+/// Stiffness \[N m/rad\] and damping \[N m s/rad\] of every joint of a body; by [`Node::index`], the hips' are 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gains {
+    /// k_sj of Shapiro et al. 2007, EQ3.
+    pub stiffness: [f64; Node::COUNT],
+    /// The damping that goes with it.
+    pub damping: [f64; Node::COUNT],
+}
+
+impl Gains {
+    /// k = (2π f)² I + load · m g h and d = 2 ζ k / (2π f), with I the inertia of what hangs from the joint, m and h the mass
+    /// above the joint and its height over it, standing. An ankle's own foot has 0.0075 kg m²: without the load
+    /// every standing pose would collapse.
+    pub fn of(body: &Body, outboard: &[f64; Node::COUNT], joints: &[JointGain; Node::COUNT]) -> Gains {
+        let mut gains = Gains { stiffness: [0.0; Node::COUNT], damping: [0.0; Node::COUNT] };
+        for node in Node::ALL.into_iter().skip(1) {
+            let joint = &joints[node.index()];
+            let omega = TAU * joint.frequency_hz;
+            let load = joint.load.unwrap_or(if carries(node) { 1.0 } else { 0.0 });
+            let stiffness = omega * omega * outboard[node.index()] + load * load_moment(body, node);
+            gains.stiffness[node.index()] = stiffness;
+            gains.damping[node.index()] = 2.0 * joint.damping_ratio * stiffness / omega.max(1e-6);
+        }
+        gains
+    }
+}
+
+/// Joints that a standing body rests on.
+fn carries(node: Node) -> bool {
+    matches!(
+        node,
+        Node::Chest
+            | Node::LeftUpperLeg
+            | Node::RightUpperLeg
+            | Node::LeftLowerLeg
+            | Node::RightLowerLeg
+            | Node::LeftFoot
+            | Node::RightFoot
+    )
+}
+
+/// m g h of what stands above a joint \[N m\].
+fn load_moment(body: &Body, node: Node) -> f64 {
+    let positions = Pose::STANDING.positions(body);
+    let joint = positions[node.index()].y;
+    Node::ALL
+        .into_iter()
+        .map(|part| body.link(part).mass_kg * 9.81 * (positions[part.index()].y + body.link(part).centre.y - joint).max(0.0))
+        .sum()
+}

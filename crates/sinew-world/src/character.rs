@@ -1,0 +1,145 @@
+//! A character in the world: its bodies, joints, and what holds them.
+
+use crate::engine::Engine;
+use crate::joint::{LimitSpring, write_ball, write_hinge};
+use crate::ragdoll::is_hinge;
+use crate::{CharacterSpec, Drive, Pin};
+use glam::{DMat3, DQuat, DVec3};
+use rapier3d_f64::prelude::*;
+use sinew_body::humanoid::{Body, Node, log};
+
+/// How a part takes part in the physics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Hold {
+    /// Forces move it.
+    Free,
+    /// Forces are switched off: it goes on with a velocity that decays.
+    Drifting,
+    /// It is moved to where it is told.
+    Told,
+}
+
+/// Time in which the velocity of a part without forces falls to 1/e \[s\]: a push's last motion dies out within half a second.
+const DRIFT_SECS: f64 = 0.12;
+
+pub(crate) struct Character {
+    pub spec: CharacterSpec,
+    pub bodies: [RigidBodyHandle; Node::COUNT],
+    pub colliders: [ColliderHandle; Node::COUNT],
+    pub joints: [ImpulseJointHandle; Node::COUNT],
+    pub drives: [Drive; Node::COUNT],
+    pub pins: [Option<Pin>; Node::COUNT],
+    pub holds: [Hold; Node::COUNT],
+    /// Moments of inertia of what hangs from each joint, about it \[kg m²\].
+    pub outboard: [f64; Node::COUNT],
+    pub gravity_scale: f64,
+    pub planes: Vec<ImpulseJointHandle>,
+    limit_spring: LimitSpring,
+}
+
+impl Character {
+    pub fn new(
+        spec: CharacterSpec,
+        bodies: [RigidBodyHandle; Node::COUNT],
+        colliders: [ColliderHandle; Node::COUNT],
+        joints: [ImpulseJointHandle; Node::COUNT],
+        drives: [Drive; Node::COUNT],
+        outboard: [f64; Node::COUNT],
+    ) -> Character {
+        let limit_spring = LimitSpring::of(spec.body.mass_kg(), spec.body.stature_m());
+        Character {
+            spec,
+            bodies,
+            colliders,
+            joints,
+            drives,
+            pins: [None; Node::COUNT],
+            holds: [Hold::Free; Node::COUNT],
+            outboard,
+            gravity_scale: 1.0,
+            planes: Vec::new(),
+            limit_spring,
+        }
+    }
+
+    pub fn body(&self) -> &Body {
+        &self.spec.body
+    }
+
+    /// Hands springs, limits and pins to the solver.
+    pub fn prepare(&self, engine: &mut Engine, step_secs: f64) {
+        if self.is_asleep(engine) {
+            return;
+        }
+        for node in Node::ALL {
+            if node.parent().is_some() {
+                self.prepare_joint(engine, node);
+            }
+            self.prepare_body(engine, node, step_secs);
+        }
+    }
+
+    fn is_asleep(&self, engine: &Engine) -> bool {
+        self.bodies.iter().all(|&handle| engine.bodies.get(handle).is_some_and(RigidBody::is_sleeping))
+    }
+
+    fn rotation(&self, engine: &Engine, node: Node) -> DQuat {
+        engine.bodies.get(self.bodies[node.index()]).map_or(DQuat::IDENTITY, |body| *body.rotation())
+    }
+
+    fn prepare_joint(&self, engine: &mut Engine, node: Node) {
+        let Some(parent) = node.parent() else { return };
+        let parent_rotation = self.rotation(engine, parent);
+        let local = (parent_rotation.conjugate() * self.rotation(engine, node)).normalize();
+        let drive = self.drives[node.index()];
+        let limit = self.body().link(node).limit;
+        let Some(joint) = engine.joints.get_mut(self.joints[node.index()], false) else { return };
+        let write = if is_hinge(node) { write_hinge } else { write_ball };
+        write(&mut joint.data, &limit, &self.limit_spring, &drive, local);
+        if drive.torque != DVec3::ZERO {
+            for (part, torque) in [(node, drive.torque), (parent, -drive.torque)] {
+                if let Some(body) = engine.bodies.get_mut(self.bodies[part.index()]) {
+                    body.add_torque(torque, true);
+                }
+            }
+        }
+    }
+
+    fn prepare_body(&self, engine: &mut Engine, node: Node, step_secs: f64) {
+        let gravity = engine.gravity * self.gravity_scale;
+        let Some(body) = engine.bodies.get_mut(self.bodies[node.index()]) else { return };
+        match (self.holds[node.index()], self.pins[node.index()]) {
+            (Hold::Drifting, _) => {
+                let kept = libm::exp(-step_secs / DRIFT_SECS);
+                body.set_linvel(body.linvel() * kept, true);
+                body.set_angvel(body.angvel() * kept, true);
+            }
+            (Hold::Free, Some(pin)) => {
+                let (force, torque) = pin_force(body, &pin, step_secs, gravity);
+                body.add_force(force, true);
+                body.add_torque(torque, true);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Force \[N\] and torque \[N m\] of a pin on a body.
+fn pin_force(body: &RigidBody, pin: &Pin, step_secs: f64, gravity: DVec3) -> (DVec3, DVec3) {
+    let (h, k, d) = (step_secs, pin.stiffness, pin.damping);
+    let scale = 1.0 / (1.0 + h * d + h * h * k);
+    let centre = pin.position + pin.rotation * body.local_center_of_mass();
+    let slip = pin.velocity - body.linvel();
+    let acceleration = ((centre - body.center_of_mass() + slip * h) * k + slip * d) * scale;
+    let force = acceleration * body.mass() - gravity * (body.mass() * pin.gravity_share);
+
+    let spin = pin.angular_velocity - body.angvel();
+    let turn = log(pin.rotation * body.rotation().conjugate());
+    let turning = ((turn + spin * h) * k + spin * d) * scale;
+    let rotation = DMat3::from_quat(*body.rotation());
+    let inertia = body.mass_properties().local_mprops.principal_inertia();
+    let torque = rotation * (DMat3::from_diagonal(inertia) * (rotation.transpose() * turning));
+
+    let cut = (pin.max_force_n / force.length().max(1e-9)).min(1.0);
+    (force * cut, torque * cut)
+}

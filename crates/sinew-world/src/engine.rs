@@ -1,0 +1,98 @@
+//! The rigid-body library's own sets, kept in one place: nothing outside this crate sees its types.
+
+use crate::{Entity, WorldSettings};
+use glam::DVec3;
+use rapier3d_f64::prelude::*;
+use sinew_body::humanoid::Node;
+
+pub(crate) struct Engine {
+    pub pipeline: PhysicsPipeline,
+    pub parameters: IntegrationParameters,
+    pub islands: IslandManager,
+    pub broad_phase: DefaultBroadPhase,
+    pub narrow_phase: NarrowPhase,
+    pub bodies: RigidBodySet,
+    pub colliders: ColliderSet,
+    pub joints: ImpulseJointSet,
+    pub multibody_joints: MultibodyJointSet,
+    pub soft_bodies: SoftBodySet,
+    pub ccd: CCDSolver,
+    pub gravity: DVec3,
+    /// The fixed body that carries the floor and the planes that hold characters.
+    pub ground: RigidBodyHandle,
+}
+
+impl Engine {
+    pub fn new(settings: &WorldSettings) -> Engine {
+        let mut parameters = IntegrationParameters::default();
+        parameters.dt = settings.step_secs();
+        parameters.num_solver_iterations = settings.solver_iterations.clamp(1, 64);
+        parameters.warmstart_joints = true;
+        parameters.contact_clustering = false;
+        parameters.friction_model = FrictionModel::Coulomb;
+        let mut engine = Engine {
+            pipeline: PhysicsPipeline::new(),
+            parameters,
+            islands: IslandManager::new(),
+            broad_phase: DefaultBroadPhase::new(),
+            narrow_phase: NarrowPhase::new(),
+            bodies: RigidBodySet::new(),
+            colliders: ColliderSet::new(),
+            joints: ImpulseJointSet::new(),
+            multibody_joints: MultibodyJointSet::new(),
+            soft_bodies: SoftBodySet::new(),
+            ccd: CCDSolver::new(),
+            gravity: DVec3::new(0.0, -settings.gravity_m_s2, 0.0),
+            ground: RigidBodyHandle::invalid(),
+        };
+        engine.ground = engine.bodies.insert(RigidBodyBuilder::fixed());
+        if let Some(surface) = settings.floor {
+            let floor = ColliderBuilder::new(SharedShape::halfspace(DVec3::Y))
+                .friction(surface.friction)
+                .restitution(surface.bounce)
+                .restitution_combine_rule(CoefficientCombineRule::Max)
+                .user_data(tag(Entity::Floor));
+            engine.colliders.insert_with_parent(floor, engine.ground, &mut engine.bodies);
+        }
+        engine
+    }
+
+    pub fn step(&mut self) {
+        self.pipeline.step(
+            self.gravity,
+            &self.parameters,
+            &mut self.islands,
+            &mut self.broad_phase,
+            &mut self.narrow_phase,
+            &mut self.bodies,
+            &mut self.colliders,
+            &mut self.joints,
+            &mut self.multibody_joints,
+            &mut self.soft_bodies,
+            &mut self.ccd,
+            &(),
+            &(),
+        );
+    }
+}
+
+/// What a collider belongs to, as the number that the library carries along.
+pub(crate) fn tag(entity: Entity) -> u128 {
+    match entity {
+        Entity::Floor => 1,
+        Entity::Prop(prop) => 2 | (prop as u128) << 8,
+        Entity::Part(character, node) => 3 | (node.index() as u128) << 8 | (character as u128) << 16,
+    }
+}
+
+pub(crate) fn untag(tag: u128) -> Option<Entity> {
+    match tag & 0xff {
+        1 => Some(Entity::Floor),
+        2 => Some(Entity::Prop(usize::try_from(tag >> 8).ok()?)),
+        3 => {
+            let node = *Node::ALL.get(usize::try_from(tag >> 8 & 0xff).ok()?)?;
+            Some(Entity::Part(usize::try_from(tag >> 16).ok()?, node))
+        }
+        _ => None,
+    }
+}

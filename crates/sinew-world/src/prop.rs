@@ -1,0 +1,67 @@
+//! A prop in the world.
+
+use crate::engine::{Engine, tag};
+use crate::solid::Form;
+use crate::{Entity, Motion, PropSpec, SpecError};
+use glam::DVec3;
+use rapier3d_f64::prelude::*;
+
+pub(crate) struct Prop {
+    pub spec: PropSpec,
+    pub handle: RigidBodyHandle,
+    /// Of a moving prop \[m/s²\].
+    pub acceleration: DVec3,
+}
+
+impl Prop {
+    pub fn build(engine: &mut Engine, spec: PropSpec, index: usize) -> Result<Prop, SpecError> {
+        let places = [spec.position, spec.velocity, spec.spin, spec.solid.centre];
+        if !(places.iter().all(|place| place.is_finite()) && spec.rotation.is_finite()) {
+            return Err(SpecError::NotFinite);
+        }
+        let shape = spec.solid.shape().ok_or(SpecError::NoShape)?;
+        let (kind, mass) = match spec.motion {
+            Motion::Fixed => (RigidBodyType::Fixed, None),
+            Motion::Moving => (RigidBodyType::KinematicVelocityBased, None),
+            Motion::Dynamic { mass_kg } => (RigidBodyType::Dynamic, Some(mass_kg)),
+        };
+        if mass.is_some() && matches!(spec.solid.form, Form::Mesh { .. }) {
+            return Err(SpecError::HollowMesh);
+        }
+        if mass.is_some_and(|mass| !(mass > 0.0 && mass.is_finite())) {
+            return Err(SpecError::NoMass("a dynamic prop"));
+        }
+        let rigid = RigidBodyBuilder::new(kind)
+            .pose(Pose::from_parts(spec.position, spec.rotation.normalize()))
+            .linvel(spec.velocity)
+            .angvel(spec.spin)
+            .ccd_enabled(mass.is_some())
+            .gravity_scale(spec.gravity_scale);
+        let handle = engine.bodies.insert(rigid);
+        let mut collider = ColliderBuilder::new(shape)
+            .position(spec.solid.placement())
+            .friction(spec.surface.friction)
+            .restitution(spec.surface.bounce)
+            .restitution_combine_rule(CoefficientCombineRule::Max)
+            .sensor(spec.is_sensor)
+            .user_data(tag(Entity::Prop(index)));
+        if spec.is_sensor {
+            // A sensor also feels what does not move by itself.
+            collider = collider.active_collision_types(ActiveCollisionTypes::all());
+        }
+        collider = match mass {
+            Some(mass) => collider.mass(mass),
+            None => collider.density(0.0),
+        };
+        engine.colliders.insert_with_parent(collider, handle, &mut engine.bodies);
+        Ok(Prop { spec, handle, acceleration: DVec3::ZERO })
+    }
+
+    pub fn prepare(&mut self, engine: &mut Engine, step_secs: f64) {
+        if self.acceleration != DVec3::ZERO
+            && let Some(body) = engine.bodies.get_mut(self.handle)
+        {
+            body.set_linvel(body.linvel() + self.acceleration * step_secs, true);
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! How the world steps.
+
+use serde::{Deserialize, Serialize};
+
+/// Constants of a world.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorldSettings {
+    /// Physics steps a second \[Hz\], 60 to 2000. Below about 120 stiff joints sag.
+    pub physics_hz: f64,
+    /// Downward gravity \[m/s²\].
+    pub gravity_m_s2: f64,
+    /// Sub-steps of the solver in each step, 1 to 64. Joint gaps shrink with its square, cost grows with it.
+    pub solver_iterations: usize,
+    /// The ground: a plane at height 0 with this friction and bounce; `None` for none.
+    pub floor: Option<Surface>,
+}
+
+/// How a surface rubs and bounces.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Surface {
+    /// Coefficient of friction; between two surfaces the mean counts.
+    pub friction: f64,
+    /// Coefficient of restitution, 0 to 1; between two surfaces the larger counts.
+    pub bounce: f64,
+}
+
+impl Default for WorldSettings {
+    fn default() -> WorldSettings {
+        WorldSettings { physics_hz: 240.0, gravity_m_s2: 9.81, solver_iterations: 4, floor: Some(Surface::FLOOR) }
+    }
+}
+
+impl Surface {
+    /// A gym's floor.
+    pub const FLOOR: Surface = Surface { friction: 0.9, bounce: 0.0 };
+    /// Skin, cloth and rubber soles.
+    pub const BODY: Surface = Surface { friction: 0.9, bounce: 0.0 };
+}
+
+impl WorldSettings {
+    /// Length of a step \[s\].
+    pub fn step_secs(&self) -> f64 {
+        1.0 / self.physics_hz
+    }
+}

@@ -1,0 +1,111 @@
+//! Collision shapes.
+
+use glam::{DQuat, DVec3};
+use rapier3d_f64::prelude::{Pose as Placement, SharedShape};
+
+/// A shape that can be touched, in the frame of what carries it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    /// Its form.
+    pub form: Form,
+    /// Its centre \[m\].
+    pub centre: DVec3,
+    /// `carrier_from_shape`.
+    pub rotation: DQuat,
+}
+
+/// The form of a [`Solid`]. All sizes in metres, above 0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    /// A ball.
+    Ball {
+        /// Radius.
+        radius_m: f64,
+    },
+    /// A box of full edge lengths.
+    Box {
+        /// Along x, y, z.
+        size_m: DVec3,
+    },
+    /// A capsule along y; `length_m` without the caps.
+    Capsule {
+        /// Radius.
+        radius_m: f64,
+        /// Between the centres of the caps.
+        length_m: f64,
+    },
+    /// A ring about y, made of straight pieces.
+    Ring {
+        /// From the axis to the middle of the tube.
+        radius_m: f64,
+        /// Radius of the tube.
+        tube_m: f64,
+    },
+    /// Triangles; has no inside, so only for what does not move.
+    Mesh {
+        /// Corners.
+        points_m: Vec<DVec3>,
+        /// Three indices each.
+        triangles: Vec<[u32; 3]>,
+    },
+    /// The convex hull of points.
+    Hull {
+        /// The points, at least four that do not lie in a plane.
+        points_m: Vec<DVec3>,
+    },
+}
+
+/// Pieces of a ring: enough that a ball's path through it meets no corner higher than a hundredth of the radius.
+pub const RING_PIECES: usize = 16;
+
+impl Solid {
+    /// A form at the origin.
+    pub fn new(form: Form) -> Solid {
+        Solid { form, centre: DVec3::ZERO, rotation: DQuat::IDENTITY }
+    }
+
+    /// The same, its centre elsewhere \[m\].
+    #[must_use]
+    pub fn at(self, centre: DVec3) -> Solid {
+        Solid { centre, ..self }
+    }
+
+    /// A capsule between two points \[m\].
+    pub fn capsule_between(from: DVec3, to: DVec3, radius_m: f64) -> Solid {
+        let line = to - from;
+        let rotation = line.try_normalize().map_or(DQuat::IDENTITY, |along| DQuat::from_rotation_arc(DVec3::Y, along));
+        Solid { form: Form::Capsule { radius_m, length_m: line.length() }, centre: (from + to) * 0.5, rotation }
+    }
+
+    pub(crate) fn placement(&self) -> Placement {
+        Placement::from_parts(self.centre, self.rotation)
+    }
+
+    /// `None` for a hull or a mesh that is none.
+    pub(crate) fn shape(&self) -> Option<SharedShape> {
+        Some(match &self.form {
+            Form::Ball { radius_m } => SharedShape::ball(*radius_m),
+            Form::Box { size_m } => SharedShape::cuboid(size_m.x / 2.0, size_m.y / 2.0, size_m.z / 2.0),
+            Form::Capsule { radius_m, length_m } if *length_m < 1e-6 => SharedShape::ball(*radius_m),
+            Form::Capsule { radius_m, length_m } => SharedShape::capsule_y(length_m / 2.0, *radius_m),
+            Form::Ring { radius_m, tube_m } => {
+                let pieces = ring_corners(*radius_m);
+                let piece = |at: usize| {
+                    let (from, to) = (pieces[at], pieces[(at + 1) % RING_PIECES]);
+                    (Placement::identity(), SharedShape::capsule(from, to, *tube_m))
+                };
+                SharedShape::compound((0..RING_PIECES).map(piece).collect())
+            }
+            Form::Mesh { points_m, triangles } => SharedShape::trimesh(points_m.clone(), triangles.clone()).ok()?,
+            Form::Hull { points_m } => SharedShape::convex_hull(points_m)?,
+        })
+    }
+}
+
+/// Corners of the polygon that stands for a ring about y.
+pub fn ring_corners(radius_m: f64) -> [DVec3; RING_PIECES] {
+    std::array::from_fn(|at| {
+        let (sin, cos) = libm::sincos(at as f64 * std::f64::consts::TAU / RING_PIECES as f64);
+        DVec3::new(sin, 0.0, cos) * radius_m
+    })
+}

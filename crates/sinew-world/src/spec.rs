@@ -1,0 +1,89 @@
+//! What is put into a world.
+
+use crate::{Solid, Surface};
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Pose};
+
+/// A character to be made a ragdoll of.
+#[derive(Clone, Debug)]
+pub struct CharacterSpec {
+    /// Masses, lengths, limits.
+    pub body: Body,
+    /// How it is placed at the start.
+    pub pose: Pose,
+    /// Velocity of the whole body \[m/s\].
+    pub velocity: DVec3,
+    /// Of its skin and soles.
+    pub surface: Surface,
+}
+
+/// How a prop moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// Pushed by all, with this mass \[kg\].
+    Dynamic {
+        /// Mass.
+        mass_kg: f64,
+    },
+    /// Never moves.
+    Fixed,
+    /// Moves as told, and nothing stops it: a platform.
+    Moving,
+}
+
+/// A prop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PropSpec {
+    /// Its shape about its origin.
+    pub solid: Solid,
+    /// How it moves.
+    pub motion: Motion,
+    /// How it rubs and bounces.
+    pub surface: Surface,
+    /// Where its origin is \[m\].
+    pub position: DVec3,
+    /// `world_from_prop`.
+    pub rotation: DQuat,
+    /// Velocity \[m/s\].
+    pub velocity: DVec3,
+    /// Angular velocity \[rad/s\].
+    pub spin: DVec3,
+    /// Only feels touches.
+    pub is_sensor: bool,
+    /// Factor on gravity.
+    pub gravity_scale: f64,
+}
+
+impl PropSpec {
+    /// A prop at rest.
+    pub fn new(solid: Solid, motion: Motion, position: DVec3) -> PropSpec {
+        PropSpec {
+            solid,
+            motion,
+            surface: Surface { friction: 0.6, bounce: 0.2 },
+            position,
+            rotation: DQuat::IDENTITY,
+            velocity: DVec3::ZERO,
+            spin: DVec3::ZERO,
+            is_sensor: false,
+            gravity_scale: 1.0,
+        }
+    }
+}
+
+/// Why something cannot be put into a world.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SpecError {
+    /// Numbers that are not finite.
+    #[error("a place or velocity is not a finite number")]
+    NotFinite,
+    /// A mesh without triangles, or hull points in a plane.
+    #[error("the shape has no volume or no triangles; give a hull four points that do not lie in a plane")]
+    NoShape,
+    /// A dynamic triangle mesh.
+    #[error("a mesh of triangles has no inside and cannot be dynamic; make it fixed, or use its hull")]
+    HollowMesh,
+    /// A character's part without mass.
+    #[error("{0} has no mass")]
+    NoMass(&'static str),
+}

@@ -1,0 +1,276 @@
+//! Reading the world into its [`Frame`], and putting back what went wrong.
+
+use crate::engine::untag;
+use crate::frame::{BodyState, CharacterFrame, Contact, Entity};
+use crate::support::keep_hull;
+use crate::{World, ragdoll};
+use glam::{DQuat, DVec3};
+use rapier3d_f64::prelude::*;
+use sinew_body::humanoid::Node;
+
+/// Buffers that a step reuses.
+#[derive(Default)]
+pub(crate) struct Watch {
+    touching_before: Vec<(Entity, Entity)>,
+    /// Points that characters stand on: character, point.
+    standing: Vec<(usize, DVec3)>,
+    hull: Vec<DVec3>,
+}
+
+/// Farther from the origin than this a body has gone wrong \[m\].
+const FARTHEST_M: f64 = 1e4;
+
+/// A contact whose normal is this upright carries \[1\].
+const CARRYING: f64 = 0.5;
+
+impl World {
+    /// Reads the frame.
+    pub(crate) fn look(&mut self) {
+        while self.frame.characters.len() < self.characters.len() {
+            self.frame.characters.push(CharacterFrame::EMPTY);
+        }
+        self.frame.props.resize(self.props.len(), BodyState::REST);
+        for index in 0..self.characters.len() {
+            self.look_at_character(index);
+        }
+        for index in 0..self.props.len() {
+            self.look_at_prop(index);
+        }
+        self.look_at_contacts();
+    }
+
+    fn look_at_character(&mut self, index: usize) {
+        let character = &self.characters[index];
+        let sound = character.bodies.iter().all(|&handle| {
+            self.engine.bodies.get(handle).is_some_and(|body| body.is_enabled() && is_sound(body))
+        });
+        self.frame.characters[index].was_reset = !sound;
+        if !sound {
+            self.put_back(index);
+        }
+        let character = &self.characters[index];
+        let frame = &mut self.frame.characters[index];
+        let (mut mass, mut moment, mut momentum) = (0.0, DVec3::ZERO, DVec3::ZERO);
+        for node in Node::ALL {
+            let Some(body) = self.engine.bodies.get(character.bodies[node.index()]) else { continue };
+            let mut state = state_of(body);
+            // Before its first step the library does not know where the mass of a body is.
+            state.centre = state.position + state.rotation * character.spec.body.link(node).centre;
+            let part_mass = character.spec.body.link(node).mass_kg;
+            mass += part_mass;
+            moment += state.centre * part_mass;
+            momentum += state.velocity * part_mass;
+            frame.parts[node.index()] = state;
+        }
+        frame.centre_of_mass = moment / mass;
+        frame.centre_velocity = momentum / mass;
+        let forward = frame.parts[0].rotation * DVec3::Z;
+        // Lying, the hips' z points up or down: the old facing is kept.
+        let flat = DVec3::new(forward.x, 0.0, forward.z);
+        if flat.length() > 0.3 {
+            frame.facing = flat.normalize();
+        }
+    }
+
+    /// The last sound place of every part, at rest.
+    fn put_back(&mut self, index: usize) {
+        let character = &self.characters[index];
+        let known = self.frame.step > 0 && self.frame.characters[index].parts[0] != BodyState::REST;
+        let start = character.spec.pose.positions(character.body());
+        for node in Node::ALL {
+            let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) else { continue };
+            let part = &self.frame.characters[index].parts[node.index()];
+            let (position, rotation) = if known {
+                (part.position, part.rotation)
+            } else {
+                (start[node.index()], character.spec.pose.world[node.index()])
+            };
+            body.set_enabled(true);
+            body.set_position(Pose::from_parts(position, rotation), true);
+            body.set_linvel(DVec3::ZERO, true);
+            body.set_angvel(DVec3::ZERO, true);
+        }
+    }
+
+    fn look_at_prop(&mut self, index: usize) {
+        let Some(body) = self.engine.bodies.get_mut(self.props[index].handle) else { return };
+        if !(body.is_enabled() && is_sound(body)) {
+            let before = self.frame.props[index];
+            let known = self.frame.step > 0;
+            let spec = &self.props[index].spec;
+            let place = if known { (before.position, before.rotation) } else { (spec.position, spec.rotation) };
+            body.set_enabled(true);
+            body.set_position(Pose::from_parts(place.0, place.1), true);
+            body.set_linvel(DVec3::ZERO, true);
+            body.set_angvel(DVec3::ZERO, true);
+        }
+        self.frame.props[index] = state_of(body);
+    }
+
+    fn look_at_contacts(&mut self) {
+        let contacts = &mut self.frame.contacts;
+        self.watch.touching_before.clear();
+        self.watch.touching_before.extend(contacts.iter().map(|contact| (contact.a, contact.b)));
+        contacts.clear();
+        self.watch.standing.clear();
+        let entity = |handle: ColliderHandle| untag(self.engine.colliders.get(handle)?.user_data);
+        for pair in self.engine.narrow_phase.contact_pairs() {
+            if !pair.has_any_active_contact() {
+                continue;
+            }
+            let (Some(first), Some(second)) = (entity(pair.collider1), entity(pair.collider2)) else { continue };
+            let Some(collider) = self.engine.colliders.get(pair.collider1) else { continue };
+            let (mut sum, mut count) = (DVec3::ZERO, 0.0);
+            for manifold in pair.manifolds() {
+                let upright = manifold.data.normal.y;
+                let place = match manifold.subshape_pos1() {
+                    Some(piece) => *collider.position() * *piece,
+                    None => *collider.position(),
+                };
+                for point in &manifold.points {
+                    if point.dist > NEAR_M {
+                        continue;
+                    }
+                    let world = place.transform_point(point.local_p1);
+                    sum += world;
+                    count += 1.0;
+                    // The normal points from the first to the second.
+                    match (first, second) {
+                        (Entity::Part(one, _), Entity::Part(other, _)) if one == other => {}
+                        (_, Entity::Part(character, _)) if upright > CARRYING => {
+                            self.watch.standing.push((character, world));
+                        }
+                        (Entity::Part(character, _), _) if upright < -CARRYING => {
+                            self.watch.standing.push((character, world));
+                        }
+                        _ => {}
+                    }
+                }
+            }
+            if count == 0.0 {
+                continue;
+            }
+            let impulse = pair.total_impulse();
+            let (a, b, impulse) = if first <= second { (first, second, impulse) } else { (second, first, -impulse) };
+            contacts.push(Contact { a, b, point: sum / count, impulse, begins: false });
+        }
+        for (one, other, touching) in self.engine.narrow_phase.intersection_pairs() {
+            let (Some(one), Some(other)) = (entity(one), entity(other)) else { continue };
+            if touching {
+                let (a, b) = if one <= other { (one, other) } else { (other, one) };
+                let place = |entity: Entity| match entity {
+                    Entity::Floor => DVec3::ZERO,
+                    Entity::Prop(prop) => self.frame.props.get(prop).map_or(DVec3::ZERO, |body| body.position),
+                    Entity::Part(character, node) => {
+                        self.frame.characters.get(character).map_or(DVec3::ZERO, |one| one.part(node).position)
+                    }
+                };
+                contacts.push(Contact { a, b, point: place(b), impulse: DVec3::ZERO, begins: false });
+            }
+        }
+        contacts.sort_by(|x, y| (x.a, x.b).cmp(&(y.a, y.b)).then(x.point.x.total_cmp(&y.point.x)));
+        for contact in contacts.iter_mut() {
+            contact.begins = self.watch.touching_before.binary_search(&(contact.a, contact.b)).is_err();
+        }
+        for (index, character) in self.frame.characters.iter_mut().enumerate() {
+            character.support.clear();
+            let points = self.watch.standing.iter().filter(|(owner, _)| *owner == index).map(|(_, point)| *point);
+            character.support.extend(points);
+            keep_hull(&mut character.support, &mut self.watch.hull);
+        }
+    }
+
+    /// A number over the bits of every place and velocity: equal for equal worlds, on any machine.
+    pub fn hash(&self) -> u64 {
+        let mut hasher = xxhash_rust::xxh3::Xxh3::new();
+        let parts = self.frame.characters.iter().flat_map(|character| &character.parts);
+        for body in parts.chain(&self.frame.props) {
+            let rotation = [body.rotation.x, body.rotation.y, body.rotation.z, body.rotation.w];
+            let vectors = [body.position, body.velocity, body.angular_velocity];
+            for number in vectors.iter().flat_map(|vector| vector.to_array()).chain(rotation) {
+                hasher.update(&number.to_bits().to_le_bytes());
+            }
+        }
+        hasher.digest()
+    }
+
+    /// The largest gap between two parts at their joint, over all characters \[m\].
+    pub fn largest_joint_gap_m(&self) -> f64 {
+        let gap = |index: usize| {
+            let parts = &self.frame.characters[index].parts;
+            let body = self.characters[index].body();
+            Node::ALL.into_iter().filter_map(move |node| {
+                let parent = &parts[node.parent()?.index()];
+                let joint = parent.position + parent.rotation * body.link(node).offset;
+                Some((joint - parts[node.index()].position).length())
+            })
+        };
+        (0..self.characters.len()).flat_map(gap).fold(0.0, f64::max)
+    }
+
+    /// Kinetic and potential energy of a character, heights from the floor \[J\].
+    pub fn energy_j(&self, character: usize) -> f64 {
+        let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.characters.get(character)) else {
+            return 0.0;
+        };
+        let gravity = -self.engine.gravity.y * one.gravity_scale;
+        Node::ALL
+            .into_iter()
+            .filter_map(|node| {
+                let body = self.engine.bodies.get(one.bodies[node.index()])?;
+                let mass = one.body().link(node).mass_kg;
+                let (part, inertia) = (frame.part(node), ragdoll::part_inertia(one.body(), node));
+                let spin = part.rotation.conjugate() * body.angvel();
+                let kinetic = 0.5 * (mass * body.linvel().length_squared() + (spin * spin).dot(inertia));
+                Some(kinetic + mass * gravity * part.centre.y)
+            })
+            .sum()
+    }
+
+    /// Whether all parts of a character sleep.
+    pub fn is_asleep(&self, character: usize) -> bool {
+        self.characters.get(character).is_some_and(|one| {
+            one.bodies.iter().all(|&handle| self.engine.bodies.get(handle).is_some_and(RigidBody::is_sleeping))
+        })
+    }
+
+    /// Moment of inertia of what hangs from a joint, about it, standing \[kg m²\].
+    pub fn outboard_inertia(&self, character: usize, node: Node) -> f64 {
+        self.characters.get(character).map_or_else(
+            || ragdoll::outboard_inertias(&sinew_body::humanoid::Body::standard(80.0, 1.7))[node.index()],
+            |one| one.outboard[node.index()],
+        )
+    }
+}
+
+/// Points farther apart than this do not touch \[m\].
+const NEAR_M: f64 = 0.004;
+
+impl CharacterFrame {
+    pub(crate) const EMPTY: CharacterFrame = CharacterFrame {
+        parts: [BodyState::REST; Node::COUNT],
+        centre_of_mass: DVec3::ZERO,
+        centre_velocity: DVec3::ZERO,
+        facing: DVec3::Z,
+        support: Vec::new(),
+        was_reset: false,
+    };
+}
+
+fn state_of(body: &RigidBody) -> BodyState {
+    BodyState {
+        position: body.translation(),
+        rotation: *body.rotation(),
+        centre: body.center_of_mass(),
+        velocity: body.linvel(),
+        angular_velocity: body.angvel(),
+    }
+}
+
+fn is_sound(body: &RigidBody) -> bool {
+    let rotation: DQuat = *body.rotation();
+    body.translation().abs().max_element() < FARTHEST_M
+        && rotation.is_finite()
+        && body.linvel().is_finite()
+        && body.angvel().is_finite()
+}

@@ -1,0 +1,311 @@
+//! The world: put things in, step, look at the [`Frame`].
+
+use crate::attachment::Attachment;
+use crate::character::{Character, Hold};
+use crate::engine::{Engine, tag};
+use crate::prop::Prop;
+use crate::watch::Watch;
+use crate::{CharacterSpec, Drive, Frame, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll};
+use glam::{DQuat, DVec3};
+use rapier3d_f64::prelude::*;
+use sinew_body::humanoid::{Body, Node};
+
+/// A rigid-body world.
+///
+/// Characters and props are addressed by the number that adding them returned, which is also their place in the
+/// [`Frame`]. A number that is none is ignored.
+///
+/// ```
+/// use sinew_body::humanoid::{Body, Pose};
+/// use sinew_world::{CharacterSpec, Surface, World, WorldSettings, hips_over_soles_m};
+/// use glam::DVec3;
+/// let mut world = World::new(WorldSettings::default());
+/// let body = Body::standard(80.0, 1.7);
+/// let mut pose = Pose::STANDING;
+/// pose.hips_position.y = hips_over_soles_m(&body, &pose);
+/// world.add_character(CharacterSpec { body, pose, velocity: DVec3::ZERO, surface: Surface::BODY })?;
+/// for _ in 0..240 {
+///     world.step();
+/// }
+/// // Nothing holds its joints: it has fallen.
+/// assert!(world.frame().characters[0].parts[0].position.y < 0.5);
+/// # Ok::<(), sinew_world::SpecError>(())
+/// ```
+pub struct World {
+    pub(crate) settings: WorldSettings,
+    pub(crate) engine: Engine,
+    pub(crate) characters: Vec<Character>,
+    pub(crate) props: Vec<Prop>,
+    pub(crate) attachments: Vec<Attachment>,
+    pub(crate) frame: Frame,
+    pub(crate) watch: Watch,
+}
+
+impl World {
+    /// An empty world with its floor.
+    pub fn new(settings: WorldSettings) -> World {
+        World {
+            settings,
+            engine: Engine::new(&settings),
+            characters: Vec::new(),
+            props: Vec::new(),
+            attachments: Vec::new(),
+            frame: Frame::default(),
+            watch: Watch::default(),
+        }
+    }
+
+    /// How it steps.
+    pub fn settings(&self) -> &WorldSettings {
+        &self.settings
+    }
+
+    /// Makes a ragdoll of a body; its joints hang until they are driven. Returns its number.
+    ///
+    /// # Errors
+    /// When a place is not finite or a part has no mass.
+    pub fn add_character(&mut self, spec: CharacterSpec) -> Result<usize, SpecError> {
+        let index = self.characters.len();
+        let character = ragdoll::build(&mut self.engine, &spec, index)?;
+        self.characters.push(character);
+        self.look();
+        Ok(index)
+    }
+
+    /// Adds a prop. Returns its number.
+    ///
+    /// # Errors
+    /// When a place is not finite, the shape is none, or a dynamic prop is a triangle mesh.
+    pub fn add_prop(&mut self, spec: PropSpec) -> Result<usize, SpecError> {
+        let index = self.props.len();
+        self.props.push(Prop::build(&mut self.engine, spec, index)?);
+        self.look();
+        Ok(index)
+    }
+
+    /// One step of physics: springs and pins are handed to the solver, everything moves, and what is known of it is in the
+    /// [`World::frame`] afterwards.
+    pub fn step(&mut self) {
+        let step_secs = self.settings.step_secs();
+        for character in &self.characters {
+            character.prepare(&mut self.engine, step_secs);
+        }
+        for prop in &mut self.props {
+            prop.prepare(&mut self.engine, step_secs);
+        }
+        self.engine.step();
+        self.forget_forces();
+        self.break_attachments();
+        self.frame.step += 1;
+        self.frame.time_secs = self.frame.step as f64 * step_secs;
+        self.look();
+    }
+
+    /// The world after the last step.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// A character's body.
+    pub fn body(&self, character: usize) -> Option<&Body> {
+        Some(self.characters.get(character)?.body())
+    }
+
+    /// Moments of inertia of what hangs from each joint of a character, about it, standing \[kg m²\]; by [`Node::index`].
+    pub fn outboard_inertias(&self, character: usize) -> Option<&[f64; Node::COUNT]> {
+        Some(&self.characters.get(character)?.outboard)
+    }
+
+    /// Holds a joint from now on. Numbers that are not finite, or negative gains, let it go limp instead.
+    pub fn set_drive(&mut self, character: usize, node: Node, drive: Drive) {
+        let Some(character) = self.characters.get_mut(character) else { return };
+        let finite = drive.rotation.is_finite() && drive.velocity.is_finite() && drive.torque.is_finite();
+        let sound = (0.0..1e9).contains(&drive.stiffness) && (0.0..1e9).contains(&drive.damping);
+        let outboard = character.outboard[node.index()];
+        let drive = if finite && sound { drive } else { Drive::limp(ragdoll::LIMP_DAMPING * outboard) };
+        if drive != character.drives[node.index()] {
+            character.drives[node.index()] = drive;
+            if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
+                body.wake_up(true);
+            }
+        }
+    }
+
+    /// Lets all joints and pins of a character go.
+    pub fn set_limp(&mut self, character: usize) {
+        let Some(character) = self.characters.get_mut(character) else { return };
+        for at in 0..Node::COUNT {
+            character.drives[at] = Drive::limp(ragdoll::LIMP_DAMPING * character.outboard[at]);
+            character.pins[at] = None;
+        }
+    }
+
+    /// Holds a part to a place in the world, or lets it go with `None`.
+    pub fn set_pin(&mut self, character: usize, node: Node, pin: Option<Pin>) {
+        let Some(character) = self.characters.get_mut(character) else { return };
+        let sound = |pin: &Pin| {
+            pin.position.is_finite()
+                && pin.rotation.is_finite()
+                && pin.velocity.is_finite()
+                && pin.angular_velocity.is_finite()
+                && pin.stiffness >= 0.0
+                && pin.damping >= 0.0
+                && pin.stiffness + pin.damping < 1e9
+        };
+        character.pins[node.index()] = pin.filter(sound);
+    }
+
+    /// Moves a part to a place by the end of the next step, whatever is in its way; it stays so until
+    /// [`World::set_forces`] frees it.
+    pub fn move_part(&mut self, character: usize, node: Node, position: DVec3, rotation: DQuat) {
+        let Some(character) = self.characters.get_mut(character) else { return };
+        if !(position.is_finite() && rotation.is_finite()) {
+            return;
+        }
+        character.holds[node.index()] = Hold::Told;
+        if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
+            if body.body_type() != RigidBodyType::KinematicPositionBased {
+                body.set_body_type(RigidBodyType::KinematicPositionBased, true);
+            }
+            body.set_next_kinematic_position(Pose::from_parts(position, rotation));
+        }
+    }
+
+    /// Switches forces on a part off (it drifts on with a velocity that decays) or on again
+    /// (Shapiro et al. 2007, section 4.1).
+    pub fn set_forces(&mut self, character: usize, node: Node, on: bool) {
+        let Some(character) = self.characters.get_mut(character) else { return };
+        character.holds[node.index()] = if on { Hold::Free } else { Hold::Drifting };
+        let kind = if on { RigidBodyType::Dynamic } else { RigidBodyType::KinematicVelocityBased };
+        if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()])
+            && body.body_type() != kind
+        {
+            body.set_body_type(kind, true);
+        }
+    }
+
+    /// A force on a part in the next step only \[N\], at a point of the world or at its centre of mass.
+    pub fn push_part(&mut self, character: usize, node: Node, force: DVec3, point: Option<DVec3>) {
+        if let Some(character) = self.characters.get(character) {
+            let handle = character.bodies[node.index()];
+            self.push_body(handle, force, point);
+        }
+    }
+
+    /// A force on a prop in the next step only \[N\], at a point of the world or at its centre of mass.
+    pub fn push_prop(&mut self, prop: usize, force: DVec3, point: Option<DVec3>) {
+        if let Some(prop) = self.props.get(prop) {
+            let handle = prop.handle;
+            self.push_body(handle, force, point);
+        }
+    }
+
+    fn push_body(&mut self, handle: RigidBodyHandle, force: DVec3, point: Option<DVec3>) {
+        if let Some(body) = self.engine.bodies.get_mut(handle)
+            && force.is_finite()
+        {
+            let point = point.filter(|point| point.is_finite()).unwrap_or_else(|| body.center_of_mass());
+            body.add_force_at_point(force.clamp_length_max(MAX_FORCE_N), point, true);
+        }
+    }
+
+    fn forget_forces(&mut self) {
+        let parts = self.characters.iter().flat_map(|character| character.bodies);
+        let props = self.props.iter().map(|prop| prop.handle);
+        for handle in parts.chain(props) {
+            if let Some(body) = self.engine.bodies.get_mut(handle)
+                && (body.user_force() != DVec3::ZERO || body.user_torque() != DVec3::ZERO)
+            {
+                body.reset_forces(false);
+                body.reset_torques(false);
+            }
+        }
+    }
+
+    /// Factor on gravity for a character.
+    pub fn set_gravity(&mut self, character: usize, scale: f64) {
+        let Some(character) = self.characters.get_mut(character) else { return };
+        if !scale.is_finite() {
+            return;
+        }
+        character.gravity_scale = scale;
+        for handle in character.bodies {
+            if let Some(body) = self.engine.bodies.get_mut(handle) {
+                body.set_gravity_scale(scale, true);
+            }
+        }
+    }
+
+    /// Gives a part another collision shape, its own again with `own`, or none at all. Its mass stays.
+    ///
+    /// # Errors
+    /// When the shape is none.
+    pub fn set_shape(&mut self, character: usize, node: Node, shape: PartShape) -> Result<(), SpecError> {
+        let Some(one) = self.characters.get_mut(character) else { return Ok(()) };
+        let own = ragdoll::part_solid(one.body(), node);
+        let handle = one.colliders[node.index()];
+        let Some(collider) = self.engine.colliders.get_mut(handle) else { return Ok(()) };
+        let solid = match &shape {
+            PartShape::Own => Some(&own),
+            PartShape::Other(solid) => Some(solid),
+            PartShape::None => None,
+        };
+        collider.set_enabled(solid.is_some());
+        if let Some(solid) = solid {
+            collider.set_shape(solid.shape().ok_or(SpecError::NoShape)?);
+            collider.set_position_wrt_parent(solid.placement());
+            collider.user_data = tag(crate::Entity::Part(character, node));
+        }
+        if let Some(body) = self.engine.bodies.get_mut(one.bodies[node.index()]) {
+            body.wake_up(true);
+        }
+        Ok(())
+    }
+
+    /// Puts a prop somewhere else, or gives it another velocity.
+    pub fn place_prop(&mut self, prop: usize, position: Option<DVec3>, velocity: Option<DVec3>) {
+        let Some(prop) = self.props.get_mut(prop) else { return };
+        if let Some(body) = self.engine.bodies.get_mut(prop.handle) {
+            if let Some(position) = position.filter(|place| place.is_finite()) {
+                body.set_translation(position, true);
+            }
+            if let Some(velocity) = velocity.filter(|velocity| velocity.is_finite()) {
+                body.set_linvel(velocity, true);
+            }
+        }
+    }
+
+    /// Accelerates a moving prop from now on \[m/s²\]; zero keeps its speed.
+    pub fn accelerate_prop(&mut self, prop: usize, acceleration: DVec3) {
+        if let Some(prop) = self.props.get_mut(prop)
+            && prop.spec.motion == Motion::Moving
+            && acceleration.is_finite()
+        {
+            prop.acceleration = acceleration;
+        }
+    }
+
+    /// Factor on gravity for a prop.
+    pub fn set_prop_gravity(&mut self, prop: usize, scale: f64) {
+        if let Some(prop) = self.props.get(prop)
+            && scale.is_finite()
+            && let Some(body) = self.engine.bodies.get_mut(prop.handle)
+        {
+            body.set_gravity_scale(scale, true);
+        }
+    }
+}
+
+/// Largest force that is taken \[N\]: ten tonnes' weight; beyond it bodies pass through what they hit.
+pub const MAX_FORCE_N: f64 = 1e5;
+
+/// What [`World::set_shape`] gives a part.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PartShape {
+    /// The body's own.
+    Own,
+    /// Another, in the part's frame.
+    Other(crate::Solid),
+    /// None: it passes through everything.
+    None,
+}
