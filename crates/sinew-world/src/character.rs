@@ -35,6 +35,7 @@ pub(crate) struct Character {
     pub gravity_scale: f64,
     pub planes: Vec<ImpulseJointHandle>,
     limit_spring: LimitSpring,
+    stays_awake: bool,
 }
 
 impl Character {
@@ -59,6 +60,7 @@ impl Character {
             gravity_scale: 1.0,
             planes: Vec::new(),
             limit_spring,
+            stays_awake: false,
         }
     }
 
@@ -76,6 +78,21 @@ impl Character {
                 self.prepare_joint(engine, node);
             }
             self.prepare_body(engine, node, step_secs);
+        }
+    }
+
+    /// What springs hold may seem to rest while it slowly tips: only a limp body may sleep.
+    pub fn keep_awake(&mut self, engine: &mut Engine, awake: bool) {
+        if self.stays_awake == awake {
+            return;
+        }
+        self.stays_awake = awake;
+        for handle in self.bodies {
+            if let Some(body) = engine.bodies.get_mut(handle) {
+                let threshold = if awake { -1.0 } else { RigidBodyActivation::default_normalized_linear_threshold() };
+                body.activation_mut().normalized_linear_threshold = threshold;
+                body.wake_up(true);
+            }
         }
     }
 

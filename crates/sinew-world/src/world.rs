@@ -125,9 +125,8 @@ impl World {
         let drive = if finite && sound { drive } else { Drive::limp(ragdoll::LIMP_DAMPING * outboard) };
         if drive != character.drives[node.index()] {
             character.drives[node.index()] = drive;
-            if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
-                body.wake_up(true);
-            }
+            let springy = character.drives.iter().any(|drive| drive.stiffness > 0.0);
+            character.keep_awake(&mut self.engine, springy);
         }
     }
 
@@ -138,6 +137,7 @@ impl World {
             character.drives[at] = Drive::limp(ragdoll::LIMP_DAMPING * character.outboard[at]);
             character.pins[at] = None;
         }
+        character.keep_awake(&mut self.engine, false);
     }
 
     /// Holds a part to a place in the world, or lets it go with `None`.

@@ -15,7 +15,7 @@ pub struct JointGain {
     #[serde(default = "ratio")]
     pub damping_ratio: f64,
     /// The joint also carries what stands on it: the load's m g h is added to the stiffness, times this factor \[1\].
-    /// Default 1 for ankles, knees, hips and chest, else 0.
+    /// Default 2 for ankles, knees, hips and chest, else 0.
     #[serde(default)]
     pub load: Option<f64>,
 }
@@ -57,7 +57,7 @@ impl Gains {
         for node in Node::ALL.into_iter().skip(1) {
             let joint = &joints[node.index()];
             let omega = TAU * joint.frequency_hz;
-            let load = joint.load.unwrap_or(if carries(node) { 1.0 } else { 0.0 });
+            let load = joint.load.unwrap_or(if carries(node) { LOAD } else { 0.0 });
             let stiffness = omega * omega * outboard[node.index()] + load * load_moment(body, node);
             gains.stiffness[node.index()] = stiffness;
             gains.damping[node.index()] = 2.0 * joint.damping_ratio * stiffness / omega.max(1e-6);
@@ -65,6 +65,9 @@ impl Gains {
         gains
     }
 }
+
+/// Default share of the load: a leg's three joints buckle together when each holds just m g h, and two legs share it.
+const LOAD: f64 = 2.0;
 
 /// Joints that a standing body rests on.
 fn carries(node: Node) -> bool {
