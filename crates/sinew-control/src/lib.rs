@@ -3,6 +3,7 @@
 mod command;
 pub mod graph;
 pub mod pose;
+pub mod reflex;
 mod target;
 pub mod tracker;
 

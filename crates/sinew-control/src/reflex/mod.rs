@@ -1,0 +1,54 @@
+//! Controllers written in Rust that sit beside poses and scripts: the layer of reactive control
+//! (Shapiro et al. 2007, section 6).
+//!
+//! A reflex sees the finished [`Frame`] of the step before and changes the wanted pose that the layers above it have made. It
+//! keeps what state it needs and is asked at every physics step while it is switched on.
+
+use crate::Target;
+use crate::tracker::Gains;
+use sinew_body::humanoid::Body;
+use sinew_world::{CharacterFrame, Frame};
+
+/// What a reflex knows.
+#[derive(Clone, Copy, Debug)]
+pub struct Sense<'a> {
+    /// The world after the last step.
+    pub frame: &'a Frame,
+    /// Which of its characters is meant.
+    pub own: usize,
+    /// Its body.
+    pub body: &'a Body,
+    /// Its joints' springs, before any factor.
+    pub gains: &'a Gains,
+    /// Length of a step \[s\].
+    pub step_secs: f64,
+    /// Gravity that acts on it \[m/s²\].
+    pub gravity_m_s2: f64,
+}
+
+impl Sense<'_> {
+    /// The character itself.
+    pub fn character(&self) -> &CharacterFrame {
+        &self.frame.characters[self.own]
+    }
+}
+
+/// A controller in Rust.
+pub trait Reflex: Send {
+    /// Its name in scenes and commands.
+    fn name(&self) -> &'static str;
+
+    /// Changes the wanted pose for the next step. Must not panic, and not allocate.
+    fn step(&mut self, sense: &Sense, target: &mut Target);
+
+    /// Forgets what it remembers: it was switched on, or the character was put back.
+    fn reset(&mut self);
+}
+
+/// The names of all reflexes.
+pub const NAMES: &[&str] = &[];
+
+/// A reflex by its name; `None` when there is none of that name.
+pub fn by_name(_name: &str, _body: &Body) -> Option<Box<dyn Reflex>> {
+    None
+}
