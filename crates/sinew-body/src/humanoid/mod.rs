@@ -4,6 +4,7 @@ mod anthropometry;
 mod body;
 mod calibration;
 mod leg;
+mod limb;
 mod limit;
 mod node;
 mod overlay;
@@ -13,6 +14,7 @@ mod rotation;
 
 pub use body::{Body, Link, Shape};
 pub use leg::{LegPose, shift_within_reach, solve_leg};
+pub use limb::{Limb, LimbGoal, LimbTurns, solve_limb};
 pub use limit::{Limit, Swing};
 pub use node::{Axis, Dof, LEGS, Node, UPPER_DOFS, UPPER_NODES, upper_dofs};
 pub use overlay::{Deviation, Overlay};
