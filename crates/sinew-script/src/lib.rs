@@ -1,1 +1,29 @@
-//! To come.
+//! Controllers in Python, in a process of their own.
+//!
+//! A *script* is the text of a Python file with a controller class in it (Shapiro et al. 2007, section 5 and appendix A):
+//! `start()` is called once, `step()` in every simulation step. The text may come from anybody, so it runs in a child
+//! process with little memory and no files, and the stage talks to it in whole steps: a [`Snapshot`] goes in, [`Command`]s
+//! come out. A script that does not come back is killed, and the stage goes on.
+//!
+//! Two halves live here. The *client* ([`Script`]) starts the child and speaks to it; it is always compiled and knows no
+//! Python. The *host* (`host`, behind the feature of that name) is what the child runs: RustPython and the words that a
+//! script can say. The feature is off by default, because RustPython brings an LGPL-3.0 library (malachite) along, which a
+//! program may want to link but a library should not force on anybody. The Python words are listed in `docs/python.md`.
+//!
+//! [`Command`]: sinew_control::Command
+
+mod error;
+#[cfg(feature = "host")]
+pub mod host;
+mod limits;
+mod names;
+mod process;
+mod protocol;
+mod script;
+mod snapshot;
+
+pub use error::ScriptError;
+pub use limits::Limits;
+pub use names::{CharacterNames, Names, StartInfo};
+pub use script::{Script, ScriptHost, StepOutcome};
+pub use snapshot::{CharacterState, Contact, ObjectState, PartState, Snapshot, Thing};

@@ -1,0 +1,102 @@
+//! The child process: reads questions, runs the script, answers. Behind the feature `host`.
+
+// RustPython's macros write `unsafe` into the modules that use them; none is written by hand here.
+#![allow(unsafe_code, reason = "RustPython's macros")]
+
+mod arguments;
+mod bounds;
+mod character;
+mod console;
+mod controller;
+mod drive;
+mod fault;
+mod interpreter;
+mod maths;
+mod random;
+mod sense;
+mod stage;
+mod words;
+
+use crate::ScriptError;
+use crate::protocol::{self, Asked, MAX_REQUEST, Reply};
+use controller::Controller;
+use rustpython_vm::VirtualMachine;
+use std::fs::File;
+use std::io::{self, Read, Write};
+
+/// Address space for the interpreter's thread, of which it touches what it needs. A thousand nested calls need a tenth.
+const STACK_BYTES: usize = 64 << 20;
+
+/// Answers the process at the other end of standard input and output until it hangs up. Meant to be all that the program
+/// does: the process gives up files, memory and children for good.
+pub fn main() -> ! {
+    // Deep recursion is to be Python's error and not the stack's end.
+    let thread = std::thread::Builder::new().stack_size(STACK_BYTES).spawn(|| {
+        let done = interpreter::new().enter(serve);
+        // Ends here, not by return: Python objects in thread locals must not outlive their interpreter.
+        std::process::exit(i32::from(done.is_err()))
+    });
+    let _ = thread.map(std::thread::JoinHandle::join);
+    // It has not come to its own end.
+    std::process::exit(2)
+}
+
+fn serve(vm: &VirtualMachine) -> io::Result<()> {
+    let mut input = io::stdin().lock();
+    let mut output = output()?;
+    let mut controller: Option<Controller> = None;
+    loop {
+        let mut head = [0; 4];
+        input.read_exact(&mut head)?;
+        let mut bytes = vec![0; protocol::length(head, MAX_REQUEST)?];
+        input.read_exact(&mut bytes)?;
+        let error = match protocol::content::<Asked>(&bytes)? {
+            Asked::Start(info, limits) => {
+                bounds::give_up_rights(&limits)?;
+                stage::set_up(&info, limits);
+                Controller::load(vm, &info.source, &info.file, &info.class).map(|new| controller = Some(new)).err()
+            }
+            Asked::Step(snapshot) => {
+                stage::with(|stage| stage.begin(snapshot));
+                let error = controller.as_mut().and_then(|controller| controller.step(vm).err());
+                stage::with(stage::Stage::end);
+                error
+            }
+            Asked::Reload(source) => match &mut controller {
+                Some(controller) => controller.reload(vm, &source).err(),
+                None => None,
+            },
+        };
+        drop(bytes);
+        answer(&mut output, error)?;
+    }
+}
+
+/// Standard output as a plain file: nothing is to be held back in it.
+fn output() -> io::Result<File> {
+    #[cfg(unix)]
+    {
+        use std::os::fd::AsFd;
+        Ok(File::from(io::stdout().as_fd().try_clone_to_owned()?))
+    }
+    #[cfg(not(unix))]
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+fn answer(output: &mut File, error: Option<ScriptError>) -> io::Result<()> {
+    let (commands, printed) = stage::with(stage::Stage::take);
+    let commands = if commands.is_empty() { Vec::new() } else { serde_json::to_vec(&commands)? };
+    let bytes = protocol::message(&Reply { commands, printed, error }, protocol::MAX_REPLY)?;
+    output.write_all(&bytes)
+}
+
+/// Characters that are kept of a printed line, a word to say or a signal.
+const MAX_TEXT: usize = 300;
+
+/// Cuts a text after some characters.
+fn cut(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.to_owned(),
+    }
+}

@@ -1,0 +1,42 @@
+//! How much a script may use.
+
+use serde::{Deserialize, Serialize};
+use std::time::Duration;
+
+/// How much a script may use.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Address space for the script's own data, on top of what the interpreter has taken before the script is read
+    /// \[bytes\]. Held by the kernel on Linux; elsewhere it is not held.
+    pub memory_bytes: u64,
+    /// How long a step may take on the wall's clock \[s\].
+    pub step_secs: f64,
+    /// How much longer the first step and a new text may take, for the interpreter to start \[s\].
+    pub startup_secs: f64,
+    /// Commands in one step; one more is an exception in the script.
+    pub commands: usize,
+    /// Printed lines that are kept in one step; further ones are counted.
+    pub printed_lines: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Limits {
+        Limits { memory_bytes: 512 << 20, step_secs: 1.0, startup_secs: 5.0, commands: 1000, printed_lines: 100 }
+    }
+}
+
+impl Limits {
+    pub(crate) fn step(&self) -> Duration {
+        seconds(self.step_secs)
+    }
+
+    pub(crate) fn startup(&self) -> Duration {
+        seconds(self.startup_secs) + self.step()
+    }
+}
+
+/// From a millisecond to a day: a time that cannot be waited for is no limit.
+fn seconds(secs: f64) -> Duration {
+    let secs = if secs.is_finite() { secs.clamp(1e-3, 86_400.0) } else { 86_400.0 };
+    Duration::from_secs_f64(secs)
+}

@@ -1,0 +1,50 @@
+//! What a script can call by name, told once.
+
+use serde::{Deserialize, Serialize};
+
+/// A script and all that stays the same while it runs.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct StartInfo {
+    /// The text, at most a mebibyte.
+    pub source: String,
+    /// The file that it is from, for the lines of errors.
+    pub file: String,
+    /// The class in it that is the controller.
+    pub class: String,
+    /// The character that it controls, one of [`Names::characters`].
+    pub own: String,
+    /// What the script's `random` numbers begin with.
+    pub seed: u64,
+    /// What it can call by name.
+    pub names: Names,
+}
+
+/// What a script can call by name.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct Names {
+    /// The parts of every character, in the order of [`CharacterState::parts`](crate::CharacterState::parts).
+    pub parts: Vec<String>,
+    /// Characters, in the order of [`Snapshot::characters`](crate::Snapshot::characters).
+    pub characters: Vec<CharacterNames>,
+    /// Props, in the order of [`Snapshot::objects`](crate::Snapshot::objects).
+    pub objects: Vec<String>,
+    /// Key poses.
+    pub poses: Vec<String>,
+    /// Pose graphs.
+    pub graphs: Vec<String>,
+    /// Collision shapes, with `own` and `none`.
+    pub shapes: Vec<String>,
+    /// Reflexes.
+    pub reflexes: Vec<String>,
+    /// Trackers.
+    pub trackers: Vec<String>,
+}
+
+/// A character's own names.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct CharacterNames {
+    /// Its name in the scene.
+    pub name: String,
+    /// Other names of its parts: alias, part.
+    pub aliases: Vec<(String, String)>,
+}

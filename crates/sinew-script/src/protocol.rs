@@ -1,0 +1,69 @@
+//! What the two processes say to each other: a length (four bytes, little end first) and that many bytes of postcard.
+
+use crate::{Limits, ScriptError, Snapshot, StartInfo};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::io;
+
+/// The longest text of a script \[bytes\].
+pub(crate) const MAX_SOURCE: usize = 1 << 20;
+/// The longest message to the child \[bytes\].
+pub(crate) const MAX_REQUEST: usize = 64 << 20;
+/// The longest message from the child \[bytes\].
+pub(crate) const MAX_REPLY: usize = 4 << 20;
+
+/// To the child.
+#[derive(Debug, Serialize)]
+pub(crate) enum Request<'a> {
+    /// Read the text and make a controller of it.
+    Start(&'a StartInfo, Limits),
+    /// Do a step.
+    Step(&'a Snapshot),
+    /// Read another text and go on with a controller of it.
+    Reload(&'a str),
+}
+
+/// [`Request`], as the child reads it.
+#[cfg(feature = "host")]
+#[derive(Debug, Deserialize)]
+pub(crate) enum Asked {
+    Start(StartInfo, Limits),
+    Step(Snapshot),
+    Reload(String),
+}
+
+/// From the child.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(crate) struct Reply {
+    /// `Vec<Command>` in JSON, whose tagged form postcard cannot read; empty for none.
+    pub commands: Vec<u8>,
+    pub printed: Vec<String>,
+    pub error: Option<ScriptError>,
+}
+
+/// A whole message, length and all.
+pub(crate) fn message(content: &impl Serialize, most: usize) -> io::Result<Vec<u8>> {
+    let bytes = postcard::to_extend(content, vec![0; 4]).map_err(io::Error::other)?;
+    let length = bytes.len() - 4;
+    if length > most {
+        return Err(io::Error::other(format!("a message of {length} bytes is longer than {most}")));
+    }
+    let mut bytes = bytes;
+    // `most` is far below four gibibytes.
+    bytes[..4].copy_from_slice(&(length as u32).to_le_bytes());
+    Ok(bytes)
+}
+
+/// The length that a message begins with.
+pub(crate) fn length(head: [u8; 4], most: usize) -> io::Result<usize> {
+    let length = u32::from_le_bytes(head) as usize;
+    if length > most {
+        return Err(io::Error::other(format!("a message of {length} bytes is longer than {most}")));
+    }
+    Ok(length)
+}
+
+/// What a message says.
+pub(crate) fn content<T: DeserializeOwned>(bytes: &[u8]) -> io::Result<T> {
+    postcard::from_bytes(bytes).map_err(io::Error::other)
+}

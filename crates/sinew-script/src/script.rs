@@ -1,0 +1,174 @@
+//! A controller in Python, as the stage sees it.
+
+use crate::process::Process;
+use crate::protocol::{self, MAX_REQUEST, MAX_SOURCE, Reply, Request};
+use crate::{Limits, ScriptError, Snapshot, StartInfo};
+use sinew_control::Command;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// How the child is started and held.
+#[derive(Clone, Debug)]
+pub struct ScriptHost {
+    /// A program that calls `sinew_script::host::main`; for `sinew`, itself.
+    pub program: PathBuf,
+    /// Its arguments; for `sinew`, `script-host`.
+    pub args: Vec<String>,
+    /// How much the script may use.
+    pub limits: Limits,
+}
+
+/// What came of a step.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct StepOutcome {
+    /// What the script wants done, in its order; what it said before an error counts.
+    pub commands: Vec<Command>,
+    /// Lines that it printed.
+    pub printed: Vec<String>,
+    /// An exception that left `start()` or `step()`: the controller has stopped.
+    pub error: Option<ScriptError>,
+    /// Why the child was killed, if it was: the controller has stopped.
+    pub killed: Option<String>,
+}
+
+/// A controller in Python. After an error, a kill or a crash it stays stopped, its steps do nothing and cost nothing, until
+/// it is reloaded. Dropped, it ends its process.
+#[derive(Debug)]
+pub struct Script {
+    host: ScriptHost,
+    info: StartInfo,
+    process: Option<Process>,
+    /// No error yet since the text was read.
+    is_running: bool,
+    /// `start()` has not been called yet.
+    is_new: bool,
+    /// Lines printed while the text was read; they go with the next step.
+    printed: Vec<String>,
+}
+
+impl Script {
+    /// Starts a process, reads the text there and makes an object of its class. `start()` is called in the first
+    /// [`Script::step`], where there is something to sense.
+    ///
+    /// # Errors
+    /// When there is no such program, when the text is not Python, has no such class, raises or does not come back.
+    pub fn start(host: ScriptHost, info: &StartInfo) -> Result<Script, ScriptError> {
+        let mut script =
+            Script { host, info: info.clone(), process: None, is_running: false, is_new: true, printed: Vec::new() };
+        script.read(None)?;
+        Ok(script)
+    }
+
+    /// Calls `start()` if that is still to be done, then `step()`. Never takes longer than [`Limits`] say, never panics.
+    pub fn step(&mut self, snapshot: &Snapshot) -> StepOutcome {
+        let limit = if self.is_new { self.host.limits.startup() } else { self.host.limits.step() };
+        let Some(process) = self.process.as_mut().filter(|_| self.is_running) else {
+            return StepOutcome::default();
+        };
+        if !snapshot.fits(&self.info.names) {
+            self.is_running = false;
+            return StepOutcome {
+                error: Some(self.error("the snapshot does not fit the names it was started with")),
+                ..StepOutcome::default()
+            };
+        }
+        self.is_new = false;
+        match ask(process, &Request::Step(snapshot), limit, self.host.limits.commands) {
+            Ok((commands, mut reply)) => {
+                self.is_running = reply.error.is_none();
+                let mut printed = std::mem::take(&mut self.printed);
+                printed.append(&mut reply.printed);
+                StepOutcome { commands, printed, error: reply.error, killed: None }
+            }
+            Err(reason) => {
+                self.kill();
+                let printed = std::mem::take(&mut self.printed);
+                StepOutcome { printed, killed: Some(reason), ..StepOutcome::default() }
+            }
+        }
+    }
+
+    /// Goes on with another text. The class's `reload(self, old)` is called in the next step if it has one, else `start()`.
+    /// When the text is wrong, the controller so far goes on; only a text that does not come back takes it along.
+    ///
+    /// # Errors
+    /// As [`Script::start`].
+    pub fn reload(&mut self, text: &str) -> Result<(), ScriptError> {
+        self.read(Some(text))
+    }
+
+    /// Ends the process; the controller is stopped until it is reloaded.
+    pub fn kill(&mut self) {
+        self.process = None;
+        self.is_running = false;
+    }
+
+    /// Whether the next step will call it.
+    pub fn is_running(&self) -> bool {
+        self.is_running
+    }
+
+    /// Has a text read: another one, or that of the start.
+    fn read(&mut self, text: Option<&str>) -> Result<(), ScriptError> {
+        if text.unwrap_or(&self.info.source).len() > MAX_SOURCE {
+            return Err(self.error(&format!("the text is longer than {MAX_SOURCE} bytes")));
+        }
+        let before = text.map(|text| std::mem::replace(&mut self.info.source, text.to_owned()));
+        let limits = self.host.limits;
+        let is_old = self.process.is_some();
+        let mut process = match self.process.take() {
+            Some(process) => process,
+            None => Process::start(&self.host.program, &self.host.args).map_err(|reason| self.error(&reason))?,
+        };
+        let request = if is_old { Request::Reload(&self.info.source) } else { Request::Start(&self.info, limits) };
+        match ask(&mut process, &request, limits.startup(), 0) {
+            Ok((_, mut reply)) => {
+                self.printed.append(&mut reply.printed);
+                // A few steps' worth, should nobody step in between.
+                self.printed.truncate(4 * limits.printed_lines);
+                if let Some(error) = reply.error {
+                    if let Some(before) = before {
+                        self.info.source = before;
+                    }
+                    // A fresh process has no controller so far that could go on.
+                    self.process = is_old.then_some(process);
+                    return Err(error);
+                }
+                self.process = Some(process);
+                self.is_running = true;
+                self.is_new = true;
+                Ok(())
+            }
+            Err(reason) => {
+                self.kill();
+                Err(self.error(&reason))
+            }
+        }
+    }
+
+    fn error(&self, message: &str) -> ScriptError {
+        ScriptError { file: self.info.file.clone(), line: None, message: message.to_owned() }
+    }
+}
+
+/// One question and its answer; the reason when there is none that can be believed.
+fn ask(
+    process: &mut Process,
+    request: &Request<'_>,
+    limit: Duration,
+    most: usize,
+) -> Result<(Vec<Command>, Reply), String> {
+    let request = protocol::message(request, MAX_REQUEST).map_err(|error| error.to_string())?;
+    let reply = process.ask(&request, limit)?;
+    let nonsense = |error: String| format!("its process talks nonsense: {error}");
+    let reply: Reply = protocol::content(&reply).map_err(|error| nonsense(error.to_string()))?;
+    let commands: Vec<Command> = if reply.commands.is_empty() {
+        Vec::new()
+    } else {
+        serde_json::from_slice(&reply.commands).map_err(|error| nonsense(error.to_string()))?
+    };
+    if commands.len() > most {
+        return Err(nonsense(format!("{} commands where {most} are allowed", commands.len())));
+    }
+    Ok((commands, reply))
+}
