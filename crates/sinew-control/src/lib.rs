@@ -2,6 +2,7 @@
 
 mod command;
 pub mod graph;
+pub mod ik;
 pub mod pose;
 pub mod reflex;
 mod target;

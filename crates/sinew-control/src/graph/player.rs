@@ -1,0 +1,154 @@
+//! A graph being played.
+
+use super::names::contact_between;
+use super::{Graph, Steering};
+use crate::pose::KeyPose;
+use sinew_world::{Contact, Entity, Frame};
+use std::fmt;
+
+/// One character's place in a graph. The graph is handed to each call, so that many players may share it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GraphPlayer {
+    state: usize,
+    /// Steps that the state has lasted.
+    steps: u64,
+    step_secs: f64,
+}
+
+/// A state left and another begun.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transition {
+    /// Place of the state that is left.
+    pub from: usize,
+    /// Place of the state that begins.
+    pub to: usize,
+    /// Time that the state lasted \[s\].
+    pub lasted_secs: f64,
+    /// What made it so.
+    pub cause: Cause,
+}
+
+/// What made a transition fire. Where it had several conditions, the most telling: a touch, else a sensor, a signal, the timer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cause {
+    /// Time was up.
+    Timer,
+    /// Two things touch.
+    Touch(Contact),
+    /// A measured value was beyond its threshold, in the quantity's unit.
+    Sensor(f64),
+    /// The word was sent.
+    Signal,
+}
+
+impl GraphPlayer {
+    /// At the graph's first state, for a world that steps so long at a time \[s\].
+    pub fn new(graph: &Graph, step_secs: f64) -> GraphPlayer {
+        GraphPlayer { state: graph.start, steps: 0, step_secs }
+    }
+
+    /// Goes to a state, by name; false when there is none.
+    pub fn jump(&mut self, graph: &Graph, name: &str) -> bool {
+        let found = graph.state(name);
+        if let Some(state) = found {
+            (self.state, self.steps) = (state, 0);
+        }
+        found.is_some()
+    }
+
+    /// The present state's name.
+    pub fn state_name<'a>(&self, graph: &'a Graph) -> &'a str {
+        &graph.states[self.state].name
+    }
+
+    /// The pose to aim at.
+    pub fn pose<'a>(&self, graph: &'a Graph) -> &'a KeyPose {
+        &graph.states[self.state].pose
+    }
+
+    /// Its name.
+    pub fn pose_name<'a>(&self, graph: &'a Graph) -> &'a str {
+        &graph.states[self.state].pose_name
+    }
+
+    /// What the state changes in its pose.
+    pub fn steering<'a>(&self, graph: &'a Graph) -> &'a Steering {
+        &graph.states[self.state].steering
+    }
+
+    /// Time that the state has lasted \[s\].
+    pub fn lasted_secs(&self) -> f64 {
+        self.steps as f64 * self.step_secs
+    }
+
+    /// Goes on by a step, after the world has: takes the first way out whose conditions hold. `signals` are the words sent since
+    /// the last step. At most one transition fires.
+    pub fn step(
+        &mut self,
+        graph: &Graph,
+        frame: &Frame,
+        own: usize,
+        signals: &[impl AsRef<str>],
+    ) -> Option<Transition> {
+        self.steps += 1;
+        for way in &graph.states.get(self.state)?.ways {
+            let mut cause = Cause::Timer;
+            if let Some(after_secs) = way.after_secs {
+                // Whole steps: the one whose end comes nearest to the time.
+                if (self.steps as f64) < libm::round(after_secs / self.step_secs) {
+                    continue;
+                }
+            }
+            if let Some(word) = &way.signal {
+                if !signals.iter().any(|signal| signal.as_ref() == word) {
+                    continue;
+                }
+                cause = Cause::Signal;
+            }
+            if let Some(sensor) = &way.sensor {
+                match sensor.fires(frame, own, self.step_secs) {
+                    Some(value) => cause = Cause::Sensor(value),
+                    None => continue,
+                }
+            }
+            if let Some((one, other)) = way.touching {
+                match contact_between(frame, one.seen_by(own), other.seen_by(own)) {
+                    Some(contact) => cause = Cause::Touch(*contact),
+                    None => continue,
+                }
+            }
+            let transition = Transition { from: self.state, to: way.to, lasted_secs: self.lasted_secs(), cause };
+            (self.state, self.steps) = (way.to, 0);
+            return Some(transition);
+        }
+        None
+    }
+}
+
+impl Transition {
+    /// The names of the two states.
+    pub fn names<'a>(&self, graph: &'a Graph) -> (&'a str, &'a str) {
+        (&graph.states[self.from].name, &graph.states[self.to].name)
+    }
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Cause::Timer => f.write_str("time was up"),
+            Cause::Signal => f.write_str("the signal came"),
+            Cause::Sensor(value) => write!(f, "the sensor read {value:.3}"),
+            Cause::Touch(contact) => {
+                let name = |f: &mut fmt::Formatter<'_>, entity| match entity {
+                    Entity::Floor => f.write_str("the ground"),
+                    Entity::Prop(index) => write!(f, "object {index}"),
+                    Entity::Part(index, node) => write!(f, "{} of character {index}", node.part().name()),
+                };
+                name(f, contact.a)?;
+                f.write_str(" touched ")?;
+                name(f, contact.b)?;
+                write!(f, " with {:.2} N s", contact.impulse.length())
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The wanted pose as it moves from key pose to key pose.
+
+use super::KeyPose;
+use crate::Target;
+use crate::ik::{IkHandles, between};
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Node, log};
+use sinew_world::{CharacterFrame, Frame};
+
+/// Plays key poses: aims at one at a time, and blends to it from whatever was wanted before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PosePlayer {
+    /// Limbs that reach; they are solved over the pose.
+    pub ik: IkHandles,
+    aim: KeyPose,
+    /// What was wanted when the blend began.
+    from: Wanted,
+    /// What is wanted now, before IK.
+    now: Wanted,
+    elapsed_secs: f64,
+    /// What was written last, to know its velocity.
+    written: Option<[DQuat; Node::COUNT]>,
+}
+
+/// A pose on its way.
+#[derive(Clone, Debug, PartialEq)]
+struct Wanted {
+    rotations: [DQuat; Node::COUNT],
+    gains: [f64; Node::COUNT],
+    dampings: [f64; Node::COUNT],
+}
+
+impl PosePlayer {
+    /// A player that has arrived at a pose.
+    pub fn new(pose: &KeyPose) -> PosePlayer {
+        let wanted = Wanted { rotations: pose.rotations, gains: pose.gains, dampings: pose.dampings };
+        PosePlayer {
+            ik: IkHandles::default(),
+            aim: pose.clone(),
+            from: wanted.clone(),
+            now: wanted,
+            elapsed_secs: pose.blend_secs,
+            written: None,
+        }
+    }
+
+    /// Takes the body's present pose for what was wanted so far, so that the next pose is blended to from there: for a character
+    /// that somebody else has driven until now.
+    pub fn take_over(&mut self, character: &CharacterFrame) {
+        let pose = character.pose();
+        for node in Node::ALL.into_iter().skip(1) {
+            self.now.rotations[node.index()] = pose.local(node).normalize();
+        }
+        self.written = None;
+        self.restart();
+    }
+
+    /// Aims at a pose from now on.
+    pub fn aim(&mut self, pose: &KeyPose) {
+        self.aim.clone_from(pose);
+        self.restart();
+    }
+
+    /// The pose that is aimed at.
+    pub fn aimed_at(&self) -> &KeyPose {
+        &self.aim
+    }
+
+    /// How far the blend has come, 0 to 1.
+    pub fn progress(&self) -> f64 {
+        if self.elapsed_secs >= self.aim.blend_secs { 1.0 } else { self.elapsed_secs / self.aim.blend_secs }
+    }
+
+    fn restart(&mut self) {
+        self.from.clone_from(&self.now);
+        self.elapsed_secs = 0.0;
+    }
+
+    /// Goes on by a step and writes what is wanted at its end. `own` is the character's place in the frame; a frame without it
+    /// gets the pose without IK. Root and torques of the target are left alone.
+    pub fn write(&mut self, frame: &Frame, own: usize, body: &Body, step_secs: f64, target: &mut Target) {
+        self.elapsed_secs = (self.elapsed_secs + step_secs).min(self.aim.blend_secs);
+        let progress = self.progress();
+        let share = progress * progress * (3.0 - 2.0 * progress);
+        for at in 1..Node::COUNT {
+            self.now.rotations[at] = between(self.from.rotations[at], self.aim.rotations[at], share);
+            self.now.gains[at] = self.from.gains[at] + (self.aim.gains[at] - self.from.gains[at]) * share;
+            self.now.dampings[at] = self.from.dampings[at] + (self.aim.dampings[at] - self.from.dampings[at]) * share;
+            let joint = &mut target.joints[at];
+            joint.rotation = self.now.rotations[at];
+            joint.gain = self.now.gains[at];
+            joint.damping = self.now.dampings[at];
+        }
+        if let Some(character) = frame.characters.get(own) {
+            self.ik.write(character, body, step_secs, target);
+        }
+        let before = self.written.filter(|_| self.aim.follow_velocity && step_secs > 0.0);
+        for at in 1..Node::COUNT {
+            let joint = &mut target.joints[at];
+            joint.velocity =
+                before.map_or(DVec3::ZERO, |before| log(before[at].conjugate() * joint.rotation) / step_secs);
+        }
+        self.written = Some(target.joints.map(|joint| joint.rotation));
+    }
+}
