@@ -1,7 +1,11 @@
 //! The child process: reads questions, runs the script, answers. Behind the feature `host`.
 
 // RustPython's macros write `unsafe` into the modules that use them; none is written by hand here.
-#![allow(unsafe_code, reason = "RustPython's macros")]
+#![allow(unsafe_code, clippy::unwrap_used, reason = "RustPython's macros")]
+#![allow(
+    clippy::module_inception,
+    reason = "RustPython makes a Python module of a Rust one, which stands alone in its file"
+)]
 
 mod arguments;
 mod bounds;

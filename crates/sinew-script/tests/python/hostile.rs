@@ -2,6 +2,8 @@
 
 use crate::scene::{error_of, host, info, snapshot, start, step_of};
 use sinew_script::{Limits, Script, ScriptHost, StepOutcome};
+use std::io::Write;
+use std::process::{Command, Stdio};
 
 /// A host that gives up quickly where the test waits for just that.
 fn impatient() -> ScriptHost {
@@ -177,4 +179,18 @@ fn programs_that_are_no_host_are_told_from_one() {
     let host = ScriptHost { program: "/bin/sleep".into(), args: vec!["60".to_owned()], ..impatient() };
     let text = format!("# {}", "x".repeat(900_000));
     assert!(Script::start(host, &info(&text)).unwrap_err().message.contains("did not come back"));
+}
+
+#[test]
+fn endless_loop_does_not_outlive_a_parent_that_is_gone() {
+    // What the parent would send, and no parent to kill it afterwards: the first kind of question is a start.
+    let question = (0u8, info("while True: pass"), host().limits);
+    let bytes = postcard::to_stdvec(&question).unwrap();
+    let mut child = Command::new(host().program).stdin(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(&u32::try_from(bytes.len()).unwrap().to_le_bytes()).unwrap();
+    input.write_all(&bytes).unwrap();
+    drop(input);
+    // Ends by itself; a child that went on would hang the test.
+    assert!(!child.wait().unwrap().success());
 }

@@ -29,6 +29,10 @@ enum Command {
     Convert(convert::Convert),
     /// Push a character and get back how it yields and recovers.
     Respond(respond::Respond),
+    /// Run a scene's Python in a process of its own; `sinew` starts it itself.
+    #[cfg(feature = "python")]
+    #[command(hide = true)]
+    ScriptHost,
 }
 
 /// How a motion file is to be read.
@@ -71,6 +75,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Inspect(command) => command.run(),
         Command::Convert(command) => command.run(),
         Command::Respond(command) => command.run(),
+        #[cfg(feature = "python")]
+        Command::ScriptHost => sinew_script::host::main(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
