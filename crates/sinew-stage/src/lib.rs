@@ -1,1 +1,29 @@
-//! To come.
+//! A scene file becomes a running stage.
+//!
+//! [`scene`] reads the file, [`Stage`] runs it, [`take`] records what happened to it, [`Recording`] keeps what it showed.
+
+mod actor;
+mod build;
+mod cast;
+mod event;
+mod motion_source;
+mod obey;
+mod reaction;
+mod recording;
+pub mod scene;
+mod scripts;
+mod sight;
+mod span;
+mod stage;
+pub mod take;
+mod tracking;
+
+pub use actor::Actor;
+pub use build::StageError;
+pub use cast::Cast;
+pub use event::{Event, Events};
+pub use motion_source::MotionSource;
+pub use recording::{RecordedCharacter, RecordedProp, Recording};
+pub use scene::{Scene, SceneError, scene_schema};
+pub use stage::Stage;
+pub use take::{Take, TakeError};

@@ -7,19 +7,29 @@
 //! | [`motion`] | skeletons, clips, motion files |
 //! | [`body`] | masses, limits, kinematics and dynamics |
 //! | [`response`] | a motion answers to pushes |
+//! | [`world`] | rigid bodies, ragdolls, props, contacts |
+//! | [`control`] | key poses, pose graphs, reflexes, trackers |
+//! | [`script`] | controllers in Python |
+//! | [`stage`] | scenes that run, takes |
 //! | [`picture`] | filmstrips and plots |
 //! | [`respond`] | the whole job of `sinew respond`: a file in, an answered file out |
+//! | [`run`] | the whole job of `sinew run`: a scene in, motion, picture and report out |
 //! | [`sample`] | a walk that Sinew makes itself |
 //! | [`inspect`] | what a motion file is and what Sinew makes of it |
 
 pub use sinew_body as body;
+pub use sinew_control as control;
 pub use sinew_motion as motion;
 pub use sinew_picture as picture;
 pub use sinew_response as response;
+pub use sinew_script as script;
+pub use sinew_stage as stage;
+pub use sinew_world as world;
 
 pub mod figure;
 pub mod inspect;
 pub mod respond;
+pub mod run;
 pub mod sample;
 
 /// The README's Rust examples compile.

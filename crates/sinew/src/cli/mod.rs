@@ -5,6 +5,7 @@ mod inspect;
 mod output;
 mod push_argument;
 mod respond;
+mod run;
 
 use clap::{Parser, Subcommand};
 use sinew::body::humanoid::ReductionError;
@@ -29,6 +30,10 @@ enum Command {
     Convert(convert::Convert),
     /// Push a character and get back how it yields and recovers.
     Respond(respond::Respond),
+    /// Run a scene: characters in a physical world.
+    Run(run::Run),
+    /// Play a take again, bit for bit, or with other values.
+    Replay(run::Replay),
     /// Run a scene's Python in a process of its own; `sinew` starts it itself.
     #[cfg(feature = "python")]
     #[command(hide = true)]
@@ -75,6 +80,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Inspect(command) => command.run(),
         Command::Convert(command) => command.run(),
         Command::Respond(command) => command.run(),
+        Command::Run(command) => command.run(),
+        Command::Replay(command) => command.run(),
         #[cfg(feature = "python")]
         Command::ScriptHost => sinew_script::host::main(),
     };

@@ -1,0 +1,252 @@
+//! One character on the stage: its layers, and how its body follows them.
+
+use crate::motion_source::MotionSource;
+use crate::scene::TrackerKind;
+use crate::scripts::Running;
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Limb, Node};
+use sinew_control::graph::{Graph, GraphPlayer};
+use sinew_control::ik::Reach;
+use sinew_control::pose::{KeyPose, PosePlayer};
+use sinew_control::reflex::{Reflex, Sense};
+use sinew_control::tracker::{JointGain, PdTracker};
+use sinew_control::{Layer, Target};
+use sinew_world::World;
+use std::collections::BTreeMap;
+
+/// A character's control: three layers (key poses and graphs, a script, reflexes) and a tracker.
+pub struct Actor {
+    index: usize,
+    body: Body,
+    poses: BTreeMap<String, KeyPose>,
+    graphs: BTreeMap<String, Graph>,
+    player: PosePlayer,
+    /// The pose that is aimed at, by its name.
+    pose: String,
+    graph: Option<(String, GraphPlayer)>,
+    signals: Vec<String>,
+    reflexes: Vec<(Box<dyn Reflex>, bool)>,
+    layers: [bool; 3],
+    pub(crate) tracker: TrackerKind,
+    pub(crate) pd: PdTracker,
+    pub(crate) motion: Option<MotionSource>,
+    pub(crate) script: Option<Running>,
+    target: Target,
+    step_secs: f64,
+}
+
+/// Signals that may wait for a step.
+const MOST_SIGNALS: usize = 100;
+
+impl Actor {
+    pub(crate) fn new(
+        index: usize,
+        body: Body,
+        poses: BTreeMap<String, KeyPose>,
+        graphs: BTreeMap<String, Graph>,
+        pose: &str,
+        joints: &[JointGain; Node::COUNT],
+        step_secs: f64,
+    ) -> Actor {
+        let first = poses.get(pose).cloned().unwrap_or(KeyPose::STAND);
+        Actor {
+            index,
+            pd: PdTracker::new(&body, joints),
+            body,
+            player: PosePlayer::new(&first),
+            pose: pose.to_owned(),
+            poses,
+            graphs,
+            graph: None,
+            signals: Vec::new(),
+            reflexes: Vec::new(),
+            layers: [true; 3],
+            tracker: TrackerKind::Pd,
+            motion: None,
+            script: None,
+            target: Target::STANDING,
+            step_secs,
+        }
+    }
+
+    /// The name of the pose that it aims at.
+    pub fn pose(&self) -> &str {
+        &self.pose
+    }
+
+    /// The graph that it plays, and the state that it is in.
+    pub fn graph_state(&self) -> Option<(&str, &str)> {
+        let (name, player) = self.graph.as_ref()?;
+        Some((name, player.state_name(self.graphs.get(name)?)))
+    }
+
+    /// How its body follows.
+    pub fn tracker(&self) -> TrackerKind {
+        self.tracker
+    }
+
+    /// Whether a layer is on.
+    pub fn has_layer(&self, layer: Layer) -> bool {
+        self.layers[layer as usize]
+    }
+
+    /// What it wants.
+    pub fn target(&self) -> &Target {
+        &self.target
+    }
+
+    /// Aims at a key pose; stops a graph, a clip and limbs that reach. False when it aims there already.
+    pub(crate) fn aim(&mut self, name: &str) -> Result<bool, String> {
+        let pose = self.poses.get(name).ok_or_else(|| unknown("pose", name, self.poses.keys()))?;
+        let reaches = Limb::ALL.into_iter().any(|limb| self.player.ik.of(limb).is_some());
+        if self.pose == name && self.graph.is_none() && self.motion.is_none() && !reaches {
+            return Ok(false);
+        }
+        self.player.aim(pose);
+        self.player.ik.release_all();
+        self.pose = name.to_owned();
+        self.graph = None;
+        self.motion = None;
+        Ok(true)
+    }
+
+    pub(crate) fn start_graph(&mut self, name: &str, state: Option<&str>) -> Result<(), String> {
+        let graph = self.graphs.get(name).ok_or_else(|| unknown("graph", name, self.graphs.keys()))?;
+        let mut player = GraphPlayer::new(graph, self.step_secs);
+        if let Some(state) = state
+            && !player.jump(graph, state)
+        {
+            return Err(format!("no state `{state}`; there are {}", graph.state_names().collect::<Vec<_>>().join(", ")));
+        }
+        self.player.aim(player.pose(graph));
+        self.pose = player.pose_name(graph).to_owned();
+        self.graph = Some((name.to_owned(), player));
+        self.motion = None;
+        Ok(())
+    }
+
+    pub(crate) fn signal(&mut self, name: &str) {
+        if self.signals.len() < MOST_SIGNALS {
+            self.signals.push(name.to_owned());
+        }
+    }
+
+    /// Makes a limb reach. False when it reaches there already.
+    /// `effector` is the point that is to arrive, in the frame of the limb's end.
+    pub(crate) fn reach(&mut self, node: Node, target: DVec3, effector: DVec3) -> Result<bool, String> {
+        let limb = Limb::of(node).ok_or_else(|| format!("{} is no part of an arm or a leg", node.part()))?;
+        let reach = Reach { target, effector };
+        let is_new = self.player.ik.of(limb) != Some(reach);
+        self.player.ik.reach(limb, reach);
+        Ok(is_new)
+    }
+
+    pub(crate) fn stop_reaching(&mut self, node: Option<Node>) {
+        match node.and_then(Limb::of) {
+            Some(limb) => self.player.ik.release(limb),
+            None => self.player.ik.release_all(),
+        }
+    }
+
+    pub(crate) fn set_gain(&mut self, node: Option<Node>, factor: f64) {
+        match node {
+            Some(node) => self.pd.joint_gain[node.index()] = factor,
+            None => self.pd.global_gain = factor,
+        }
+    }
+
+    pub(crate) fn set_layer(&mut self, layer: Layer, on: bool) {
+        self.layers[layer as usize] = on;
+        if layer == Layer::Reflexes && on {
+            self.reset();
+        }
+    }
+
+    pub(crate) fn set_reflex(&mut self, name: &str, on: bool) -> Result<(), String> {
+        match self.reflexes.iter_mut().find(|(reflex, _)| reflex.name() == name) {
+            Some((reflex, is_on)) => {
+                if on && !*is_on {
+                    reflex.reset();
+                }
+                *is_on = on;
+            }
+            None => {
+                let reflex = sinew_control::reflex::by_name(name, &self.body);
+                let known = sinew_control::reflex::NAMES.join(", ");
+                self.reflexes.push((reflex.ok_or_else(|| format!("no reflex `{name}`; there are {known}"))?, on));
+            }
+        }
+        if on {
+            self.layers[Layer::Reflexes as usize] = true;
+        }
+        Ok(())
+    }
+
+    /// Reflexes forget what they remember: the body was put back.
+    pub(crate) fn reset(&mut self) {
+        for (reflex, _) in &mut self.reflexes {
+            reflex.reset();
+        }
+    }
+
+    /// Takes the wanted pose from where the body is: another tracker has moved it until now.
+    pub(crate) fn take_over(&mut self, world: &World) {
+        if let Some(character) = world.frame().characters.get(self.index) {
+            self.player.take_over(character);
+        }
+    }
+
+    /// Decides what is wanted at the end of the next step. Returns what the graph did, if it did something: cause and effect.
+    pub(crate) fn decide(&mut self, world: &World, gravity_m_s2: f64) -> Option<(String, String)> {
+        let frame = world.frame();
+        let step_secs = self.step_secs;
+        let mut happened = None;
+        if self.has_layer(Layer::Poses)
+            && let Some((name, player)) = &mut self.graph
+            && let Some(graph) = self.graphs.get(name)
+            && let Some(transition) = player.step(graph, frame, self.index, &self.signals)
+        {
+            self.player.aim(player.pose(graph));
+            player.pose_name(graph).clone_into(&mut self.pose);
+            let (from, to) = transition.names(graph);
+            happened = Some((transition.cause.to_string(), format!("{name}: from {from} to {to}")));
+        }
+        self.signals.clear();
+        for joint in &mut self.target.joints {
+            joint.torque = DVec3::ZERO;
+        }
+        self.player.write(frame, self.index, &self.body, step_secs, &mut self.target);
+        if let Some((name, player)) = &self.graph
+            && let Some(graph) = self.graphs.get(name)
+        {
+            player.steering(graph).apply(frame, self.index, &mut self.target);
+        }
+        if let Some(motion) = &self.motion {
+            motion.write(frame.time_secs + step_secs, &mut self.target);
+        }
+        if !self.has_layer(Layer::Poses) {
+            for joint in &mut self.target.joints {
+                joint.gain = 0.0;
+            }
+        }
+        if self.has_layer(Layer::Reflexes) {
+            let sense = Sense {
+                frame,
+                own: self.index,
+                body: &self.body,
+                gains: self.pd.gains(),
+                step_secs,
+                gravity_m_s2,
+            };
+            for (reflex, _) in self.reflexes.iter_mut().filter(|(_, on)| *on) {
+                reflex.step(&sense, &mut self.target);
+            }
+        }
+        happened
+    }
+}
+
+fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a String>) -> String {
+    let known: Vec<&str> = known.map(String::as_str).collect();
+    format!("no {what} `{name}`; there are {}", known.join(", "))
+}

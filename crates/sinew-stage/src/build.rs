@@ -1,0 +1,180 @@
+//! From a scene to what runs: bodies into the world, poses and graphs resolved, layers and controllers begun.
+
+use crate::Stage;
+use crate::actor::Actor;
+use crate::cast::Cast;
+use crate::motion_source::{self, MotionSource};
+use crate::obey::heading;
+use crate::scene::{CharacterSpec, Scene, SourceSpec, TrackerKind};
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Node, Pose, exp};
+use sinew_control::graph::Graph;
+use sinew_control::pose::{KeyPose, STAND, resolve_poses};
+use sinew_control::tracker::JointGain;
+use sinew_control::{Layer, PoseSpec};
+use sinew_world::{Surface, World, hips_over_soles_m};
+use std::collections::BTreeMap;
+
+/// Why a scene cannot be built.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{file}: {place}: {problem}")]
+pub struct StageError {
+    /// The scene file.
+    pub file: String,
+    /// Which of its tables.
+    pub place: String,
+    /// What is wrong, and what to do.
+    pub problem: String,
+}
+
+/// What reading a character's body gives.
+struct Cut {
+    body: Body,
+    motion: Option<MotionSource>,
+}
+
+pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<Vec<Actor>, StageError> {
+    let wrong = |place: String, problem: String| StageError { file: scene.file_name().to_owned(), place, problem };
+    for (name, prop) in &scene.props {
+        let place = || format!("props.{name}");
+        let spec = prop.in_world().ok_or_else(|| wrong(place(), "it has no shape".to_owned()))?;
+        world.add_prop(spec).map_err(|error| wrong(place(), error.to_string()))?;
+    }
+    let mut actors = Vec::new();
+    for (index, (name, spec)) in scene.characters.iter().enumerate() {
+        let place = || format!("characters.{name}");
+        let cut = cut(scene, spec).map_err(|problem| wrong(place(), problem))?;
+        let specs: &BTreeMap<String, PoseSpec> = &scene.poses;
+        let poses = resolve_poses(specs, &cut.body)
+            .map_err(|error| wrong("poses".to_owned(), format!("on the body of {name}: {error}")))?;
+        let mut graphs = BTreeMap::new();
+        for (graph, spec) in &scene.graphs {
+            let resolved = Graph::new(spec, &poses, cast);
+            let resolved = resolved.map_err(|error| wrong(format!("graphs.{graph}"), error.to_string()))?;
+            graphs.insert(graph.clone(), resolved);
+        }
+        let joints = joint_gains(spec);
+        let pose = first_pose(spec, &poses);
+        let start = match &cut.motion {
+            Some(motion) => motion.pose_at(0.0),
+            None => placed(spec, &cut.body, poses.get(pose).unwrap_or(&KeyPose::STAND)),
+        };
+        let surface = Surface { friction: spec.friction.unwrap_or(Surface::BODY.friction), ..Surface::BODY };
+        let in_world = sinew_world::CharacterSpec {
+            body: cut.body.clone(),
+            pose: start,
+            velocity: spec.velocity_m_s.into(),
+            surface,
+        };
+        world.add_character(in_world).map_err(|error| wrong(place(), error.to_string()))?;
+        let mut actor =
+            Actor::new(index, cut.body, poses, graphs, pose, &joints, world.settings().step_secs());
+        actor.motion = cut.motion;
+        actors.push(actor);
+    }
+    Ok(actors)
+}
+
+/// What begins with the first step: gravity, planes, layers, reflexes, graphs, controllers.
+pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
+    let scene = std::sync::Arc::clone(&stage.scene);
+    for (index, (name, spec)) in scene.characters.iter().enumerate() {
+        let wrong = |problem: String| StageError {
+            file: scene.file_name().to_owned(),
+            place: format!("characters.{name}"),
+            problem,
+        };
+        if spec.gravity_scale != 1.0 {
+            stage.world.set_gravity(index, spec.gravity_scale);
+        }
+        if let Some(degrees) = spec.plane_facing_deg() {
+            stage.world.hold_to_plane(index, heading(degrees));
+        }
+        let actor = &mut stage.actors[index];
+        actor.set_gain(None, spec.pose_gain);
+        for reflex in &spec.reflexes {
+            actor.set_reflex(reflex, true).map_err(wrong)?;
+        }
+        for layer in [Layer::Poses, Layer::Scripts, Layer::Reflexes] {
+            actor.set_layer(layer, spec.layers.contains(&layer));
+        }
+        match &spec.source {
+            Some(SourceSpec { pose: Some(pose), .. }) => actor.aim(pose).map(|_| ()).map_err(wrong)?,
+            Some(SourceSpec { graph: Some(graph), state, .. }) => {
+                actor.start_graph(graph, state.as_deref()).map_err(wrong)?;
+            }
+            _ => {}
+        }
+        if spec.tracker != TrackerKind::Pd {
+            stage.set_tracker(index, spec.tracker).map_err(wrong)?;
+        }
+        if let Some(controller) = &spec.controller {
+            stage.start_controller(index, controller).map_err(wrong)?;
+        }
+    }
+    Ok(())
+}
+
+/// A character's body, and its clip if it plays one.
+fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
+    let source = spec.source.as_ref();
+    let played = source.and_then(|source| source.clip.as_ref());
+    let Some(skeleton) = spec.clip.as_ref().or(played) else {
+        return Ok(Cut { body: Body::standard(spec.mass_kg, spec.height_m.unwrap_or(1.7)), motion: None });
+    };
+    let file = motion_source::read(scene, skeleton)?;
+    let reduction = motion_source::reduction(&file, spec)?;
+    let mut body = reduction.body().clone();
+    let Some(played) = played else { return Ok(Cut { body, motion: None }) };
+    let (other, other_reduction);
+    let (file, reduction) = if played == skeleton {
+        (&file, &reduction)
+    } else {
+        other = motion_source::read(scene, played)?;
+        other_reduction = motion_source::reduction(&other, spec)?;
+        (&other, &other_reduction)
+    };
+    let motion = MotionSource::of(
+        file,
+        reduction,
+        spec,
+        f64::from(scene.stage.motion_hz),
+        source.and_then(|source| source.start_secs).unwrap_or(0.0),
+        source.and_then(|source| source.repeat).unwrap_or(true),
+        scene.stage.duration_secs,
+    )?;
+    for pose in motion.poses() {
+        body.widen_limits(pose);
+    }
+    Ok(Cut { body, motion: Some(motion) })
+}
+
+/// The pose that a character has at the start.
+fn first_pose<'a>(spec: &'a CharacterSpec, poses: &BTreeMap<String, KeyPose>) -> &'a str {
+    let source = spec.source.as_ref().and_then(|source| source.pose.as_deref());
+    let pose = spec.pose.as_deref().or(source).unwrap_or(STAND);
+    if poses.contains_key(pose) { pose } else { STAND }
+}
+
+/// A key pose with its soles on the floor below its place, lifted by the place's height.
+fn placed(spec: &CharacterSpec, body: &Body, key: &KeyPose) -> Pose {
+    let mut locals = key.rotations;
+    locals[0] = exp(DVec3::Y * spec.facing_deg.to_radians());
+    let mut pose = Pose::from_locals(DVec3::ZERO, &locals);
+    pose.hips_position = DVec3::from(spec.position_m) + DVec3::Y * hips_over_soles_m(body, &pose);
+    pose
+}
+
+fn joint_gains(spec: &CharacterSpec) -> [JointGain; Node::COUNT] {
+    let mut joints = [JointGain::DEFAULT; Node::COUNT];
+    for (name, joint) in &spec.joints {
+        let Some(node) = spec.node(name) else { continue };
+        let gain = &mut joints[node.index()];
+        gain.frequency_hz = joint.frequency_hz.unwrap_or(gain.frequency_hz);
+        gain.damping_ratio = joint.damping_ratio.unwrap_or(gain.damping_ratio);
+        if let Some(carries) = joint.carries {
+            gain.load = if carries { None } else { Some(0.0) };
+        }
+    }
+    joints
+}

@@ -1,0 +1,110 @@
+//! Who and what is on the stage, by name.
+
+use crate::scene::Scene;
+use sinew_body::humanoid::Node;
+use sinew_control::graph::{Names, Touchable};
+use sinew_world::Entity;
+use std::collections::BTreeMap;
+
+/// Names of characters and props, and what they are in the world: a place in the frame's lists, in alphabetical order.
+#[derive(Clone, Debug, Default)]
+pub struct Cast {
+    characters: Vec<String>,
+    props: Vec<String>,
+    /// By character: alias, part.
+    aliases: Vec<BTreeMap<String, Node>>,
+}
+
+/// What the ground is called.
+pub const GROUND: &str = "ground";
+
+impl Cast {
+    /// The cast of a scene.
+    pub fn of(scene: &Scene) -> Cast {
+        let aliases = |character: &crate::scene::CharacterSpec| {
+            character.aliases.keys().filter_map(|alias| Some((alias.clone(), character.node(alias)?))).collect()
+        };
+        Cast {
+            characters: scene.characters.keys().cloned().collect(),
+            props: scene.props.keys().cloned().collect(),
+            aliases: scene.characters.values().map(aliases).collect(),
+        }
+    }
+
+    /// Names of characters, in the order of the frame.
+    pub fn characters(&self) -> &[String] {
+        &self.characters
+    }
+
+    /// Names of props, in the order of the frame.
+    pub fn props(&self) -> &[String] {
+        &self.props
+    }
+
+    /// Aliases of a character's parts.
+    pub fn aliases(&self, character: usize) -> impl Iterator<Item = (&String, Node)> {
+        self.aliases.get(character).into_iter().flatten().map(|(alias, node)| (alias, *node))
+    }
+
+    /// The character of this name.
+    pub fn character(&self, name: &str) -> Option<usize> {
+        self.characters.iter().position(|known| known == name)
+    }
+
+    /// The prop of this name.
+    pub fn prop(&self, name: &str) -> Option<usize> {
+        self.props.iter().position(|known| known == name)
+    }
+
+    /// A part of a character, by its VRM name or an alias.
+    pub fn part(&self, character: usize, name: &str) -> Option<Node> {
+        if let Some(node) = self.aliases.get(character)?.get(name) {
+            return Some(*node);
+        }
+        name.parse().ok().map(Node::of)
+    }
+
+    /// `ground`, a prop, a character, `character.part`, or a part of `own`.
+    pub fn meaning(&self, name: &str, own: Option<usize>) -> Option<Touchable> {
+        if name == GROUND {
+            return Some(Touchable::One(Entity::Floor));
+        }
+        if let Some(prop) = self.prop(name) {
+            return Some(Touchable::One(Entity::Prop(prop)));
+        }
+        if let Some(character) = self.character(name) {
+            return Some(Touchable::Character(character));
+        }
+        if let Some((character, part)) = name.split_once('.') {
+            let character = self.character(character)?;
+            return Some(Touchable::One(Entity::Part(character, self.part(character, part)?)));
+        }
+        let own = own?;
+        if name == "self" {
+            return Some(Touchable::Character(own));
+        }
+        Some(Touchable::One(Entity::Part(own, self.part(own, name)?)))
+    }
+
+    /// What a thing is called: `ball`, `left.rightHand`, `ground`.
+    pub fn name_of(&self, entity: Entity) -> String {
+        match entity {
+            Entity::Floor => GROUND.to_owned(),
+            Entity::Prop(prop) => self.props.get(prop).cloned().unwrap_or_default(),
+            Entity::Part(character, node) => {
+                let owner = self.characters.get(character).map_or("", String::as_str);
+                format!("{owner}.{}", node.part().name())
+            }
+        }
+    }
+}
+
+impl Names for Cast {
+    fn find(&self, name: &str) -> Option<Touchable> {
+        self.meaning(name, None)
+    }
+
+    fn known(&self) -> Vec<&str> {
+        self.characters.iter().chain(&self.props).map(String::as_str).collect()
+    }
+}

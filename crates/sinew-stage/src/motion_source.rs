@@ -1,0 +1,112 @@
+//! A clip as the source of the wanted pose.
+
+use crate::obey::heading;
+use crate::scene::{CharacterSpec, HeldFile, Scene};
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Node, Person, Pose, Reduction, log};
+use sinew_control::Target;
+use sinew_motion::formats::{MotionFile, ReadOptions};
+use sinew_motion::{find_cycle, repeat, resample};
+
+/// Poses at a constant rate, placed on the stage.
+#[derive(Clone, Debug)]
+pub struct MotionSource {
+    poses: Vec<Pose>,
+    hz: f64,
+    start_secs: f64,
+}
+
+/// Most frames that a repetition makes: an hour at 60 Hz.
+const MOST_FRAMES: usize = 216_000;
+
+/// Reads a motion file that a scene names.
+pub(crate) fn read(scene: &Scene, name: &str) -> Result<MotionFile, String> {
+    let options = ReadOptions::default();
+    let wrong = |error: sinew_motion::Error| error.to_string();
+    match (name.to_ascii_lowercase().ends_with(".bvh"), scene.files().get(name), scene.on_disk(name)) {
+        (true, Some(HeldFile { bytes, .. }), _) => MotionFile::from_bvh(bytes, &options).map_err(|e| format!("{name}: {e}")),
+        (_, _, Some(path)) => MotionFile::read(&path, &options).map_err(wrong),
+        _ => Err(format!("{name}: a take holds BVH clips only; convert the clip with `sinew convert`")),
+    }
+}
+
+/// The body in a motion file, with the scene's mass and height.
+pub(crate) fn reduction(file: &MotionFile, spec: &CharacterSpec) -> Result<Reduction, String> {
+    let humanoid = file.body_parts().map_err(|error| error.to_string())?;
+    let person = Person { mass_kg: spec.mass_kg, height_m: spec.height_m };
+    Reduction::new(&file.clip, humanoid, file.stature_m, person).map_err(|error| error.to_string())
+}
+
+impl MotionSource {
+    /// A clip's poses at the scene's motion rate, moved so that at `start_secs` the hips are over the character's place and
+    /// face where it faces. Its gait cycle, or else the whole clip, is repeated until `until_secs` when `repeats`.
+    pub(crate) fn of(
+        file: &MotionFile,
+        reduction: &Reduction,
+        spec: &CharacterSpec,
+        hz: f64,
+        start_secs: f64,
+        repeats: bool,
+        until_secs: f64,
+    ) -> Result<MotionSource, String> {
+        let humanoid = file.body_parts().map_err(|error| error.to_string())?;
+        let wanted = (((start_secs + until_secs) * hz).ceil() as usize + 2).min(MOST_FRAMES);
+        let clip = resample(&file.clip, hz);
+        let clip = match repeats.then(|| find_cycle(&clip, humanoid)).flatten() {
+            Some(cycle) => {
+                let length = cycle.last.saturating_sub(cycle.first).max(1);
+                repeat(&clip, humanoid, (cycle.first, cycle.last), wanted / length + 2).clip
+            }
+            None => clip,
+        };
+        let mut poses: Vec<Pose> =
+            (0..clip.frames().min(wanted)).map(|frame| reduction.pose(&clip.world(frame))).collect();
+        let first = ((start_secs * hz).round() as usize).min(poses.len().saturating_sub(1));
+        let Some(start) = poses.get(first).copied() else { return Err("the clip has no frames".to_owned()) };
+        let forward = start.world[0] * DVec3::Z;
+        let wanted = heading(spec.facing_deg);
+        let turn = DQuat::from_rotation_y(libm::atan2(wanted.x, wanted.z) - libm::atan2(forward.x, forward.z));
+        let place = DVec3::from(spec.position_m);
+        let from = DVec3::new(start.hips_position.x, 0.0, start.hips_position.z);
+        for pose in &mut poses {
+            pose.hips_position = turn * (pose.hips_position - from) + place;
+            pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
+        }
+        Ok(MotionSource { poses, hz, start_secs })
+    }
+
+    /// The pose at a time of the stage; before the start the first, after the end the last.
+    pub fn pose_at(&self, time_secs: f64) -> Pose {
+        let at = ((self.start_secs + time_secs) * self.hz).max(0.0);
+        let last = self.poses.len().saturating_sub(1);
+        let (index, share) = ((at as usize).min(last), at - at.floor());
+        let (from, to) = (&self.poses[index], &self.poses[(index + 1).min(last)]);
+        let mut pose = *from;
+        pose.hips_position = from.hips_position.lerp(to.hips_position, share);
+        for node in Node::ALL {
+            pose.world[node.index()] = from.world[node.index()].slerp(to.world[node.index()], share).normalize();
+        }
+        pose
+    }
+
+    /// All poses, from the clip's start.
+    pub fn poses(&self) -> &[Pose] {
+        &self.poses
+    }
+
+    /// Writes the pose of a time into a target, with the velocity of its joints.
+    pub fn write(&self, time_secs: f64, target: &mut Target) {
+        let pose = self.pose_at(time_secs);
+        let ahead = 1.0 / self.hz;
+        let next = self.pose_at(time_secs + ahead);
+        for node in Node::ALL.into_iter().skip(1) {
+            let joint = target.joint_mut(node);
+            let (local, after) = (pose.local(node), next.local(node));
+            joint.rotation = local.normalize();
+            joint.velocity = log((local.conjugate() * after).normalize()) / ahead;
+            joint.gain = 1.0;
+            joint.damping = 1.0;
+        }
+        target.root = Some((pose.hips_position, pose.world[0]));
+    }
+}

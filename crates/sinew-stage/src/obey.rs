@@ -1,0 +1,348 @@
+//! What each command does.
+
+use crate::Stage;
+use crate::scene::TrackerKind;
+use crate::span::{Ending, LastingPush, MOST_PUSHES};
+use crate::stage::step_of;
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::Node;
+use sinew_control::graph::Touchable;
+use sinew_control::{Action, Command};
+use sinew_world::{Entity, Held, PartShape};
+
+impl Stage {
+    /// Does what a command says and notes it. A command that makes no sense here (an unknown name, a number that is not
+    /// finite) is noted as refused, with the reason.
+    pub(crate) fn obey(&mut self, command: &Command, cause: &str) {
+        match self.try_obey(command) {
+            Ok(Some(effect)) => self.note(cause, effect),
+            Ok(None) => {}
+            Err(problem) => self.note(cause, format!("refused: {problem}")),
+        }
+    }
+
+    fn try_obey(&mut self, command: &Command) -> Result<Option<String>, String> {
+        match &command.character {
+            Some(name) => {
+                let character = self.cast.character(name).ok_or_else(|| {
+                    format!("no character `{name}`; there are {}", self.cast.characters().join(", "))
+                })?;
+                self.obey_for(character, &command.action)
+            }
+            None => self.obey_on_stage(&command.action),
+        }
+    }
+
+    fn obey_for(&mut self, character: usize, action: &Action) -> Result<Option<String>, String> {
+        let who = self.cast.characters()[character].clone();
+        let effect = match action {
+            Action::Pose { name } => {
+                if !self.actors[character].aim(name)? {
+                    // It aims there already: a script says so at every step.
+                    return Ok(None);
+                }
+                format!("{who} takes the pose {name}")
+            }
+            Action::Graph { name, state } => {
+                self.actors[character].start_graph(name, state.as_deref())?;
+                format!("{who} starts the graph {name}")
+            }
+            Action::Signal { name } => {
+                self.actors[character].signal(name);
+                format!("{who} gets the signal {name}")
+            }
+            Action::Ik { link, target_m } => {
+                let target = vector(*target_m, "target_m")?;
+                let limb = match link {
+                    Some(link) => self.part(character, link)?,
+                    None => self.holding_part(character).unwrap_or(Node::RightHand),
+                };
+                let effector = self.effector(character, limb);
+                if !self.actors[character].reach(limb, target, effector)? {
+                    return Ok(None);
+                }
+                format!("{who}'s {} reaches for {target:.2}", limb.part())
+            }
+            Action::IkRelease { link } => {
+                let limb = link.as_deref().map(|link| self.part(character, link)).transpose()?;
+                self.actors[character].stop_reaching(limb);
+                format!("{who} reaches no longer")
+            }
+            Action::Attach { link, object, soft, break_n } => {
+                let node = self.part(character, link)?;
+                let object_entity = self.thing(object, character)?;
+                if self.world.is_attached(character, node, object_entity) {
+                    return Ok(None);
+                }
+                let break_force_n = break_n.map(|force| number(force, "break_n")).transpose()?;
+                self.world.attach(Held { character, node, object: object_entity, soft: *soft, break_force_n });
+                format!("{who}'s {} holds {object}", node.part())
+            }
+            Action::Detach { link, object } => {
+                let node = self.part(character, link)?;
+                let object_entity = self.thing(object, character)?;
+                if !self.world.is_attached(character, node, object_entity) {
+                    return Ok(None);
+                }
+                self.world.detach(character, node, object_entity);
+                format!("{who}'s {} lets go of {object}", node.part())
+            }
+            Action::Push { on, force_n, for_secs, facing } => {
+                let node = self.part(character, on)?;
+                let mut force = vector(*force_n, "force_n")?;
+                if *facing {
+                    let frame = &self.world.frame().characters[character];
+                    force = frame.left() * force.x + DVec3::Y * force.y + frame.facing * force.z;
+                }
+                self.start_push(Entity::Part(character, node), force, *for_secs)?;
+                format!("{who}'s {} is pushed with {:.0} N for {for_secs:.2} s", node.part(), force.length())
+            }
+            Action::Gain { factor, part } => {
+                let factor = number(*factor, "factor")?.max(0.0);
+                let part = part.as_deref().map(|part| self.part(character, part)).transpose()?;
+                self.actors[character].set_gain(part, factor);
+                let what = part.map_or("all joints".to_owned(), |node| node.part().name().to_owned());
+                format!("{who}: gain of {what} is {factor}")
+            }
+            Action::ForcesOff { parts, for_secs } => {
+                let nodes = if parts.is_empty() { vec![Node::Hips] } else { self.parts(character, parts)? };
+                let until = self.until(*for_secs)?;
+                for &node in &nodes {
+                    self.world.set_forces(character, node, false);
+                    self.spans.end_at(until, Ending::ForcesOff(character, node));
+                }
+                format!("{who}: forces on {} are off", listed(&nodes))
+            }
+            Action::ForcesOn { parts } => {
+                let nodes = if parts.is_empty() { Node::ALL.to_vec() } else { self.parts(character, parts)? };
+                for &node in &nodes {
+                    self.world.set_forces(character, node, true);
+                    self.spans.end_at(None, Ending::ForcesOff(character, node));
+                }
+                format!("{who}: forces on {} are on", listed(&nodes))
+            }
+            Action::Plane { facing_deg, for_secs } => {
+                let facing = match facing_deg {
+                    Some(degrees) => heading(number(*degrees, "facing_deg")?),
+                    None => self.world.frame().characters[character].facing,
+                };
+                let until = self.until(*for_secs)?;
+                self.world.hold_to_plane(character, facing);
+                self.spans.end_at(until, Ending::Plane(character));
+                format!("{who} is held to a plane")
+            }
+            Action::PlaneOff {} => {
+                self.end(&Ending::Plane(character));
+                self.spans.end_at(None, Ending::Plane(character));
+                return Ok(None);
+            }
+            Action::Gravity { scale, for_secs, .. } => {
+                let scale = number(*scale, "scale")?;
+                let until = self.until(*for_secs)?;
+                self.world.set_gravity(character, scale);
+                self.spans.end_at(until, Ending::Gravity(character));
+                format!("{who}: gravity times {scale}")
+            }
+            Action::Shape { part, shape, for_secs } => {
+                let node = self.part(character, part)?;
+                let until = self.until(*for_secs)?;
+                let solid = match shape.as_str() {
+                    "own" => PartShape::Own,
+                    "none" => PartShape::None,
+                    name => {
+                        let spec = self.scene.shapes.get(name).and_then(crate::scene::ShapeSpec::solid);
+                        PartShape::Other(spec.ok_or_else(|| {
+                            let known: Vec<&str> = self.scene.shapes.keys().map(String::as_str).collect();
+                            format!("no shape `{name}`; there are own, none, {}", known.join(", "))
+                        })?)
+                    }
+                };
+                self.world.set_shape(character, node, solid).map_err(|error| error.to_string())?;
+                self.spans.end_at(until, Ending::Shape(character, node));
+                format!("{who}'s {} has the shape {shape}", node.part())
+            }
+            Action::Layer { layer, on } => {
+                self.actors[character].set_layer(*layer, *on);
+                let state = if *on { "on" } else { "off" };
+                format!("{who}: layer {} {state}", format!("{layer:?}").to_lowercase())
+            }
+            Action::Reflex { name, on } => {
+                self.actors[character].set_reflex(name, *on)?;
+                format!("{who}: reflex {name} {}", if *on { "on" } else { "off" })
+            }
+            Action::Controller { name } => {
+                self.start_controller(character, name)?;
+                format!("{who} is run by {}", if name.is_empty() { "no controller" } else { name })
+            }
+            Action::Tracker { name } => {
+                let kind = TrackerKind::of(name).ok_or_else(|| {
+                    format!("no tracker `{name}`; there are {}", TrackerKind::ALL.map(TrackerKind::name).join(", "))
+                })?;
+                self.set_tracker(character, kind)?;
+                format!("{who} follows by {name}")
+            }
+            Action::Reload { name, text } => return self.reload(name, text.as_deref()).map(Some),
+            Action::ScriptKilled { name, reason } => return self.kill_script(name, reason).map(Some),
+            Action::Say { text } => format!("{who}: {text}"),
+            Action::Place { .. } | Action::Accelerate { .. } => return self.obey_on_stage(action),
+        };
+        Ok(Some(effect))
+    }
+
+    fn obey_on_stage(&mut self, action: &Action) -> Result<Option<String>, String> {
+        let effect = match action {
+            Action::Place { object, position_m, velocity_m_s } => {
+                let prop = self.prop(object)?;
+                let place = |value: &Option<[f64; 3]>, what| value.map(|value| vector(value, what)).transpose();
+                let (position, velocity) = (place(position_m, "position_m")?, place(velocity_m_s, "velocity_m_s")?);
+                self.world.place_prop(prop, position, velocity);
+                format!("{object} is placed")
+            }
+            Action::Accelerate { object, acceleration_m_s2, for_secs } => {
+                let prop = self.prop(object)?;
+                let acceleration = vector(*acceleration_m_s2, "acceleration_m_s2")?;
+                let until = self.until(Some(*for_secs))?;
+                self.world.accelerate_prop(prop, acceleration);
+                self.spans.end_at(until, Ending::Acceleration(prop));
+                format!("{object} is accelerated by {:.2} m/s² for {for_secs:.2} s", acceleration.length())
+            }
+            Action::Push { on, force_n, for_secs, .. } => {
+                let prop = self.prop(on)?;
+                let force = vector(*force_n, "force_n")?;
+                self.start_push(Entity::Prop(prop), force, *for_secs)?;
+                format!("{on} is pushed with {:.0} N for {for_secs:.2} s", force.length())
+            }
+            Action::Gravity { scale, on: Some(on), for_secs } => {
+                let prop = self.prop(on)?;
+                let scale = number(*scale, "scale")?;
+                let until = self.until(*for_secs)?;
+                self.world.set_prop_gravity(prop, scale);
+                self.spans.end_at(until, Ending::PropGravity(prop));
+                format!("{on}: gravity times {scale}")
+            }
+            Action::Reload { name, text } => self.reload(name, text.as_deref())?,
+            Action::ScriptKilled { name, reason } => self.kill_script(name, reason)?,
+            Action::Say { text } => text.clone(),
+            _ => return Err("this command needs a character".to_owned()),
+        };
+        Ok(Some(effect))
+    }
+
+    /// Undoes what has lasted for its time.
+    pub(crate) fn end(&mut self, ending: &Ending) {
+        let who = |index: usize| self.cast.characters().get(index).cloned().unwrap_or_default();
+        let effect = match ending {
+            Ending::ForcesOff(character, node) => {
+                self.world.set_forces(*character, *node, true);
+                format!("{}: forces on {} are on", who(*character), node.part())
+            }
+            Ending::Plane(character) => {
+                if !self.world.is_held_to_plane(*character) {
+                    return;
+                }
+                self.world.free_from_plane(*character);
+                format!("{} is free in three dimensions", who(*character))
+            }
+            Ending::Gravity(character) => {
+                let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
+                self.world.set_gravity(*character, scale);
+                format!("{}: gravity times {scale}", who(*character))
+            }
+            Ending::PropGravity(prop) => {
+                let scale = self.scene.props.values().nth(*prop).and_then(|spec| spec.gravity_scale).unwrap_or(1.0);
+                self.world.set_prop_gravity(*prop, scale);
+                format!("{}: gravity times {scale}", self.cast.props()[*prop])
+            }
+            Ending::Shape(character, node) => {
+                // The body's own shape is one.
+                let _ = self.world.set_shape(*character, *node, PartShape::Own);
+                format!("{}'s {} has its own shape", who(*character), node.part())
+            }
+            Ending::Acceleration(prop) => {
+                self.world.accelerate_prop(*prop, DVec3::ZERO);
+                format!("{} keeps its speed", self.cast.props()[*prop])
+            }
+        };
+        self.note("its time is over", effect);
+    }
+
+    fn start_push(&mut self, on: Entity, force: DVec3, for_secs: f64) -> Result<(), String> {
+        if self.spans.pushes.len() >= MOST_PUSHES {
+            return Err(format!("{MOST_PUSHES} pushes act already"));
+        }
+        let for_secs = number(for_secs, "for_secs")?;
+        let steps = step_of(for_secs, self.world.settings().step_secs()).max(1);
+        let until_step = self.world.frame().step.saturating_add(steps);
+        self.spans.pushes.push(LastingPush { on, force, until_step });
+        Ok(())
+    }
+
+    /// The step at which something that begins now ends; `None` for never.
+    fn until(&self, for_secs: Option<f64>) -> Result<Option<u64>, String> {
+        let Some(secs) = for_secs else { return Ok(None) };
+        let steps = step_of(number(secs, "for_secs")?, self.world.settings().step_secs()).max(1);
+        Ok(Some(self.world.frame().step.saturating_add(steps)))
+    }
+
+    fn part(&self, character: usize, name: &str) -> Result<Node, String> {
+        self.cast.part(character, name).ok_or_else(|| {
+            let aliases: Vec<&str> = self.cast.aliases(character).map(|(alias, _)| alias.as_str()).collect();
+            let known = Node::ALL.map(|node| node.part().name()).join(", ");
+            format!("no part `{name}`; there are {} {known}", aliases.join(", "))
+        })
+    }
+
+    fn parts(&self, character: usize, names: &[String]) -> Result<Vec<Node>, String> {
+        names.iter().map(|name| self.part(character, name)).collect()
+    }
+
+    fn prop(&self, name: &str) -> Result<usize, String> {
+        self.cast.prop(name).ok_or_else(|| format!("no object `{name}`; there are {}", self.cast.props().join(", ")))
+    }
+
+    /// One thing that can be held.
+    fn thing(&self, name: &str, own: usize) -> Result<Entity, String> {
+        match self.cast.meaning(name, Some(own)) {
+            Some(Touchable::One(Entity::Part(owner, _))) if owner == own => Err(format!("`{name}` is a part of its own")),
+            Some(Touchable::One(entity)) => Ok(entity),
+            Some(Touchable::Character(_)) => Err(format!("`{name}` is a whole character; name a part, `{name}.leftHand`")),
+            None => self.prop(name).map(Entity::Prop),
+        }
+    }
+
+    /// The point that is to arrive when a part reaches, in the part's frame \[m\]: the centre of what it holds, else its own.
+    fn effector(&self, character: usize, node: Node) -> DVec3 {
+        let own = self.world.body(character).map_or(DVec3::ZERO, |body| body.link(node).centre);
+        let held = self.world.held().find(|held| held.character == character && held.node == node);
+        let Some(Entity::Prop(prop)) = held.map(|held| held.object) else { return own };
+        let frame = self.world.frame();
+        let part = frame.characters[character].part(node);
+        part.rotation.conjugate() * (frame.props[prop].centre - part.position)
+    }
+
+    /// The part that holds something.
+    fn holding_part(&self, character: usize) -> Option<Node> {
+        self.world.held().find(|held| held.character == character).map(|held| held.node)
+    }
+}
+
+/// The horizontal unit vector of a heading \[degrees about +Y from +Z to +X\].
+pub(crate) fn heading(degrees: f64) -> DVec3 {
+    DQuat::from_axis_angle(DVec3::Y, degrees.to_radians()) * DVec3::Z
+}
+
+fn number(value: f64, what: &str) -> Result<f64, String> {
+    if value.is_finite() { Ok(value) } else { Err(format!("{what} is not a finite number")) }
+}
+
+fn vector(value: [f64; 3], what: &str) -> Result<DVec3, String> {
+    let vector = DVec3::from(value);
+    if vector.is_finite() { Ok(vector) } else { Err(format!("{what} is not made of finite numbers")) }
+}
+
+fn listed(nodes: &[Node]) -> String {
+    if nodes.len() == Node::COUNT {
+        return "all parts".to_owned();
+    }
+    nodes.iter().map(|node| node.part().name()).collect::<Vec<_>>().join(", ")
+}

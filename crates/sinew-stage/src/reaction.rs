@@ -1,0 +1,61 @@
+//! The scene's `[[when]]`: commands when two things touch.
+
+use crate::cast::Cast;
+use crate::scene::Scene;
+use crate::stage::step_of;
+use sinew_control::Command;
+use sinew_control::graph::Touchable;
+use sinew_world::Frame;
+
+pub(crate) struct Reactions {
+    list: Vec<Waiting>,
+}
+
+struct Waiting {
+    touching: [Touchable; 2],
+    words: String,
+    command: Command,
+    /// Steps until it may fire again; `None` for never.
+    repeat_after: Option<u64>,
+    /// The first step in which it may fire; `None` when it is done.
+    ready_at: Option<u64>,
+}
+
+impl Reactions {
+    pub fn of(scene: &Scene, cast: &Cast) -> Reactions {
+        let step_secs = scene.stage.world_settings().step_secs();
+        let list = scene.when.iter().filter_map(|reaction| {
+            let [one, other] = &reaction.touching;
+            Some(Waiting {
+                touching: [cast.meaning(one, None)?, cast.meaning(other, None)?],
+                words: format!("scene, line {}: {one} touches {other}", reaction.line),
+                command: reaction.command.clone(),
+                repeat_after: reaction.repeat_after_secs.map(|secs| step_of(secs, step_secs).max(1)),
+                ready_at: Some(0),
+            })
+        });
+        Reactions { list: list.collect() }
+    }
+
+    /// Commands of those whose touch begins, with the cause in words.
+    pub fn fired(&mut self, frame: &Frame, cast: &Cast) -> Vec<(Command, String)> {
+        let mut fired = Vec::new();
+        for waiting in &mut self.list {
+            if waiting.ready_at.is_none_or(|step| step > frame.step) {
+                continue;
+            }
+            let [one, other] = waiting.touching;
+            let touch = frame.contacts.iter().find(|contact| {
+                contact.begins
+                    && (one.is(contact.a) && other.is(contact.b)
+                        || one.is(contact.b) && other.is(contact.a))
+            });
+            if let Some(touch) = touch {
+                waiting.ready_at = waiting.repeat_after.map(|steps| frame.step + steps);
+                let cause = format!("{} ({} on {})", waiting.words, cast.name_of(touch.a), cast.name_of(touch.b));
+                fired.push((waiting.command.clone(), cause));
+            }
+        }
+        fired
+    }
+}

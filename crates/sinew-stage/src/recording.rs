@@ -1,0 +1,86 @@
+//! What was seen, frame by frame, for files and pictures.
+
+use crate::Stage;
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Pose};
+use sinew_world::Solid;
+
+/// A run at the motion rate.
+#[derive(Clone, Debug, Default)]
+pub struct Recording {
+    /// Frames a second.
+    pub motion_hz: f64,
+    /// Frames so far; the first is the start.
+    pub frames: usize,
+    /// Every character, in the order of the stage.
+    pub characters: Vec<RecordedCharacter>,
+    /// Every prop, in the order of the stage.
+    pub props: Vec<RecordedProp>,
+}
+
+/// A character's motion.
+#[derive(Clone, Debug)]
+pub struct RecordedCharacter {
+    /// Its name.
+    pub name: String,
+    /// Its body.
+    pub body: Body,
+    /// Its colour, where the scene states one.
+    pub rgb: Option<[u8; 3]>,
+    /// Its pose in every frame.
+    pub poses: Vec<Pose>,
+}
+
+/// A prop's motion.
+#[derive(Clone, Debug)]
+pub struct RecordedProp {
+    /// Its name.
+    pub name: String,
+    /// Its shape.
+    pub solid: Solid,
+    /// Its colour, where the scene states one.
+    pub rgb: Option<[u8; 3]>,
+    /// A sensor is not drawn.
+    pub is_sensor: bool,
+    /// `world_from_prop` in every frame.
+    pub places: Vec<(DVec3, DQuat)>,
+}
+
+impl Recording {
+    /// An empty recording of a stage.
+    pub fn new(stage: &Stage) -> Recording {
+        let scene = stage.scene();
+        let world = stage.world();
+        let characters = scene.characters.iter().enumerate().filter_map(|(index, (name, spec))| {
+            let body = world.body(index)?.clone();
+            Some(RecordedCharacter { name: name.clone(), body, rgb: spec.rgb(), poses: Vec::new() })
+        });
+        let props = scene.props.iter().filter_map(|(name, spec)| {
+            let solid = spec.solid()?;
+            Some(RecordedProp { name: name.clone(), solid, rgb: spec.rgb(), is_sensor: spec.sensor, places: Vec::new() })
+        });
+        Recording {
+            motion_hz: f64::from(scene.stage.motion_hz),
+            frames: 0,
+            characters: characters.collect(),
+            props: props.collect(),
+        }
+    }
+
+    /// Takes down what the stage shows now.
+    pub fn push(&mut self, stage: &Stage) {
+        let frame = stage.world().frame();
+        for (character, seen) in self.characters.iter_mut().zip(&frame.characters) {
+            character.poses.push(seen.pose());
+        }
+        for (prop, seen) in self.props.iter_mut().zip(&frame.props) {
+            prop.places.push((seen.position, seen.rotation));
+        }
+        self.frames += 1;
+    }
+
+    /// Time of a frame \[s\].
+    pub fn time_secs(&self, frame: usize) -> f64 {
+        frame as f64 / self.motion_hz
+    }
+}

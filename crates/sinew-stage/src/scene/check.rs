@@ -1,0 +1,206 @@
+//! Whether what a scene names exists, and whether its numbers are sound.
+
+use super::error::{Fault, known, shortened};
+use super::range::{count, name, new_name, number, optional};
+use super::stage::MOST_SECS;
+use super::{SCENE_FORMAT, SceneSpec, Touchable};
+use sinew_control::GraphSpec;
+
+/// The built-in pose: standing, arms hanging.
+pub const STAND: &str = "stand";
+
+impl SceneSpec {
+    /// Names of all key poses, the built-in one included.
+    pub fn pose_names(&self) -> impl Iterator<Item = &str> + Clone {
+        let own = self.poses.contains_key(STAND);
+        self.poses.keys().map(String::as_str).chain((!own).then_some(STAND))
+    }
+
+    /// Names of all objects and characters.
+    pub(super) fn thing_names(&self) -> impl Iterator<Item = &str> + Clone {
+        self.props.keys().chain(self.characters.keys()).map(String::as_str)
+    }
+
+    pub(super) fn check(&self) -> Result<(), Fault> {
+        if self.format != SCENE_FORMAT {
+            let problem = if self.format > SCENE_FORMAT {
+                format!("format {} is newer than the {SCENE_FORMAT} that this version reads; update Sinew", self.format)
+            } else {
+                format!("there is no format {}; write format = {SCENE_FORMAT}", self.format)
+            };
+            return Err(Fault::at(&["format"], problem));
+        }
+        self.stage.check()?;
+        self.camera.check()?;
+        self.check_counts()?;
+        for (shape, spec) in &self.shapes {
+            new_name(&["shapes", shape], shape)?;
+            if ["own", "none"].contains(&shape.as_str()) {
+                return Err(Fault::at(
+                    &["shapes", shape],
+                    "the command `shape` has its own meaning for this name; choose another",
+                ));
+            }
+            spec.check(["shapes", shape])?;
+        }
+        for (prop, spec) in &self.props {
+            new_name(&["props", prop], prop)?;
+            spec.check(prop)?;
+        }
+        for (controller, spec) in &self.controllers {
+            new_name(&["controllers", controller], controller)?;
+            spec.check(controller)?;
+        }
+        self.check_characters()?;
+        self.check_poses()?;
+        self.check_commands()
+    }
+
+    fn check_counts(&self) -> Result<(), Fault> {
+        count(&["shapes"], self.shapes.len(), 1_000)?;
+        count(&["characters"], self.characters.len(), 256)?;
+        count(&["props"], self.props.len(), 1_000)?;
+        count(&["poses"], self.poses.len(), 10_000)?;
+        count(&["graphs"], self.graphs.len(), 1_000)?;
+        count(&["controllers"], self.controllers.len(), 64)?;
+        count(&["at"], self.at.len(), 100_000)?;
+        count(&["when"], self.when.len(), 1_000)?;
+        count(&["keys"], self.keys.len(), 1_000)?;
+        match &self.name {
+            Some(name) if name.len() > 200 => Err(Fault::at(&["name"], "it is longer than 200 bytes; shorten it")),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_characters(&self) -> Result<(), Fault> {
+        for (character, spec) in &self.characters {
+            let at = |key| ["characters", character, key];
+            new_name(&at("")[..2], character)?;
+            if self.props.contains_key(character) {
+                return Err(Fault::at(&at("")[..2], "a prop has this name too; rename one of the two"));
+            }
+            spec.check(character)?;
+            if let Some(pose) = &spec.pose {
+                name(&at("pose"), "pose", pose, self.pose_names())?;
+            }
+            if let Some(controller) = &spec.controller {
+                name(&at("controller"), "controller", controller, self.controllers.keys().map(String::as_str))?;
+            }
+            let Some(source) = &spec.source else { continue };
+            let at = |key| ["characters", character, "source", key];
+            if let Some(pose) = &source.pose {
+                name(&at("pose"), "pose", pose, self.pose_names())?;
+            }
+            if let Some(graph) = &source.graph {
+                name(&at("graph"), "graph", graph, self.graphs.keys().map(String::as_str))?;
+                if let (Some(state), Some(graph)) = (&source.state, self.graphs.get(graph)) {
+                    name(&at("state"), "state", state, graph.states.keys().map(String::as_str))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_poses(&self) -> Result<(), Fault> {
+        for (pose, spec) in &self.poses {
+            new_name(&["poses", pose], pose)?;
+            if let Some(base) = &spec.base {
+                name(&["poses", pose, "base"], "pose", base, self.pose_names())?;
+            }
+        }
+        for (graph, spec) in &self.graphs {
+            new_name(&["graphs", graph], graph)?;
+            self.check_graph(graph, spec)?;
+        }
+        Ok(())
+    }
+
+    fn check_graph(&self, graph: &str, spec: &GraphSpec) -> Result<(), Fault> {
+        let states = || spec.states.keys().map(String::as_str);
+        name(&["graphs", graph, "start"], "state", &spec.start, states())?;
+        for (state, body) in &spec.states {
+            let path = ["graphs", graph, "states", state];
+            name(&[&path[..], &["pose"]].concat(), "pose", &body.pose, self.pose_names())?;
+            for (index, way) in body.to.iter().enumerate() {
+                let index = index.to_string();
+                let at = |key| [&path[..], &["to", &index, key]].concat();
+                name(&at("state"), "state", &way.state, states())?;
+                for thing in way.touching.iter().flatten() {
+                    self.graph_thing(&at("touching"), thing, &["self"])?;
+                }
+                if let Some(sensor) = &way.sensor {
+                    self.graph_thing(&at("sensor"), &sensor.of, &["centre"])?;
+                    if let Some(to) = &sensor.to {
+                        self.graph_thing(&at("sensor"), to, &["centre"])?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A name in a graph: of the character that runs it, whichever that is, or of the scene.
+    fn graph_thing(&self, path: &[&str], thing: &str, own: &[&str]) -> Result<(), Fault> {
+        let is_own = own.contains(&thing)
+            || self.characters.values().any(|character| character.node(thing).is_some())
+            || super::CharacterSpec::default().node(thing).is_some();
+        if is_own || self.touchable(thing).is_ok() {
+            return Ok(());
+        }
+        let names = own.iter().copied().chain([super::range::GROUND]).chain(self.thing_names());
+        Err(Fault::at(path, format!("no part, object or character `{}`; {}", shortened(thing), known(thing, names))))
+    }
+
+    fn check_commands(&self) -> Result<(), Fault> {
+        let command = |list: &str, index: usize, command: &sinew_control::Command| {
+            let problem = self.check_command(command);
+            problem.map_err(|problem| Fault::at(&[list.to_owned(), index.to_string()], problem))
+        };
+        for (index, timed) in self.at.iter().enumerate() {
+            let path = ["at".to_owned(), index.to_string(), "time_secs".to_owned()];
+            number(&path, timed.at_secs, 0.0..=MOST_SECS, "seconds from the start are expected")?;
+            command("at", index, &timed.command)?;
+        }
+        for (index, reaction) in self.when.iter().enumerate() {
+            let path = |key: &str| ["when".to_owned(), index.to_string(), key.to_owned()];
+            for thing in &reaction.touching {
+                self.touchable(thing).map_err(|problem| Fault::at(&path("touching"), problem))?;
+            }
+            optional(&path("repeat_after_secs"), reaction.repeat_after_secs, 0.0..=MOST_SECS, "seconds are expected")?;
+            command("when", index, &reaction.command)?;
+        }
+        for (index, binding) in self.keys.iter().enumerate() {
+            let path = ["keys".to_owned(), index.to_string(), "key".to_owned()];
+            if binding.key.is_empty() || binding.key.len() > 32 || binding.key.chars().any(char::is_control) {
+                return Err(Fault::at(&path, "write a letter, a digit, or a name such as Space or ArrowUp"));
+            }
+            command("keys", index, &binding.command)?;
+        }
+        Ok(())
+    }
+
+    /// What a name means that stands for something that can be touched: a prop, a character, a part as `character.part`, or
+    /// `ground`.
+    ///
+    /// # Errors
+    /// When nothing has this name: what there is instead.
+    pub fn touchable(&self, thing: &str) -> Result<Touchable, String> {
+        if thing == super::range::GROUND {
+            return Ok(Touchable::Ground);
+        }
+        if self.props.contains_key(thing) {
+            return Ok(Touchable::Prop(thing.to_owned()));
+        }
+        if self.characters.contains_key(thing) {
+            return Ok(Touchable::Character(thing.to_owned()));
+        }
+        if let Some((character, part)) = thing.split_once('.')
+            && let Some(spec) = self.characters.get(character)
+        {
+            let node = spec.node(part).ok_or_else(|| spec.no_part(part))?;
+            return Ok(Touchable::Part(character.to_owned(), node));
+        }
+        let names = self.thing_names().chain([super::range::GROUND]);
+        Err(format!("no object, character or character.part `{}`; {}", shortened(thing), known(thing, names)))
+    }
+}

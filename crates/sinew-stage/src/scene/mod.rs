@@ -1,0 +1,35 @@
+//! Scenes: a TOML file that says who and what is on the stage and what happens there.
+//!
+//! [`SceneSpec`] is the file as it is written; [`Scene`] is one that was read and found sound, with all files that it names.
+//! `docs/scenes.md` explains the file key by key.
+
+mod character;
+mod check;
+mod command_check;
+mod controller;
+mod document;
+mod error;
+mod files;
+mod prop;
+mod range;
+mod read;
+mod shape;
+mod source;
+mod spec;
+mod stage;
+mod timeline;
+mod wording;
+
+pub use character::{CharacterSpec, JointSpec, PlaneFacing, PlaneSpec, REFLEXES, TrackerKind};
+pub use check::STAND;
+pub use controller::ControllerSpec;
+pub use error::SceneError;
+pub(crate) use files::allowed;
+pub use files::{DiskFiles, Files, HeldFile};
+pub use prop::PropSpec;
+pub use read::{Scene, Touchable};
+pub use shape::{AxisName, CapsuleSpec, MeshSpec, RingSpec, ShapeSpec};
+pub use source::SourceSpec;
+pub use spec::{SCENE_FORMAT, SceneSpec, scene_schema};
+pub use stage::{CameraSpec, FloorSpec, FloorSurface, StageSpec};
+pub use timeline::{KeyBinding, Reaction, Timed};

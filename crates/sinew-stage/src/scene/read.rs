@@ -1,0 +1,190 @@
+//! From a file to a sound scene.
+
+use super::command_check::MOST_PYTHON_BYTES;
+use super::document::Document;
+use super::error::{Fault, shortened};
+use super::wording;
+use super::{ControllerSpec, DiskFiles, Files, HeldFile, SceneError, SceneSpec};
+use sinew_body::humanoid::Node;
+use std::collections::BTreeMap;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Largest motion file of a scene \[bytes\].
+const MOST_CLIP_BYTES: u64 = 256 << 20;
+
+/// A scene that was read and found sound. Its tables are those of [`SceneSpec`], to which it dereferences.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    spec: SceneSpec,
+    name: String,
+    held: BTreeMap<String, HeldFile>,
+    sets: Vec<(String, String)>,
+    source: Arc<dyn Files>,
+}
+
+/// Something that can be touched, by the scene's names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Touchable {
+    /// The floor.
+    Ground,
+    /// A prop.
+    Prop(String),
+    /// Any part of a character.
+    Character(String),
+    /// One part of a character.
+    Part(String, Node),
+}
+
+impl Deref for Scene {
+    type Target = SceneSpec;
+
+    fn deref(&self) -> &SceneSpec {
+        &self.spec
+    }
+}
+
+impl Scene {
+    /// Reads a scene file, and all files that it names.
+    ///
+    /// # Errors
+    /// A file that is missing or too large, or a scene that is not sound: file, line, key, what is wrong and what to do.
+    pub fn read(path: &Path) -> Result<Scene, SceneError> {
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
+            let problem = "this names no file; name a scene, such as scenes/block.toml".to_owned();
+            return Err(SceneError { file: path.display().to_string(), line: None, path: String::new(), problem });
+        };
+        Scene::load(name, Arc::new(DiskFiles { folder }), &[])
+    }
+
+    /// Makes a scene from files in memory, by the names that the scene uses for them.
+    ///
+    /// # Errors
+    /// As [`Scene::read`].
+    pub fn from_files(name: &str, files: BTreeMap<String, Vec<u8>>) -> Result<Scene, SceneError> {
+        Scene::load(name, Arc::new(files), &[])
+    }
+
+    /// Makes a scene from its text alone, for tests.
+    ///
+    /// # Errors
+    /// As [`Scene::read`].
+    pub fn from_text(text: &str) -> Result<Scene, SceneError> {
+        Scene::from_files("scene.toml", BTreeMap::from([("scene.toml".to_owned(), text.as_bytes().to_vec())]))
+    }
+
+    /// Makes a scene from files of any source, with changes as [`Scene::set`] makes them.
+    ///
+    /// # Errors
+    /// As [`Scene::read`].
+    pub fn load(name: &str, source: Arc<dyn Files>, sets: &[(String, String)]) -> Result<Scene, SceneError> {
+        let files = source.as_ref();
+        let mut document = Document::read(name, files, sets)?;
+        let table = toml::Value::Table(document.table.clone());
+        let mut spec: SceneSpec = match serde_path_to_error::deserialize(table) {
+            Ok(spec) => spec,
+            Err(error) => return Err(document.place(files, wording::fault(error))),
+        };
+        spec.check().map_err(|fault| document.place(files, fault))?;
+        for (path, file, most_bytes) in named_files(&spec) {
+            let held = document.hold(&file, files, most_bytes);
+            held.map_err(|problem| {
+                document.place(files, Fault::at(&path, format!("`{}`: {problem}", shortened(&file))))
+            })?;
+        }
+        for (controller, ControllerSpec { file, text, .. }) in &spec.controllers {
+            let at = |key| ["controllers", controller, key];
+            if text.as_ref().is_some_and(|text| text.len() > MOST_PYTHON_BYTES) {
+                let problem = format!("the text is longer than {MOST_PYTHON_BYTES} bytes; shorten it");
+                return Err(document.place(files, Fault::at(&at("text"), problem)));
+            }
+            if let Some(file) = file
+                && document.files.get(file).is_none_or(|held| held.text().is_none())
+            {
+                let fault = Fault::at(&at("file"), format!("`{}` is no UTF-8 text; save it as UTF-8", shortened(file)));
+                return Err(document.place(files, fault));
+            }
+        }
+        for (timed, line) in spec.at.iter_mut().zip(document.lines("at")) {
+            timed.line = line;
+        }
+        for (reaction, line) in spec.when.iter_mut().zip(document.lines("when")) {
+            reaction.line = line;
+        }
+        Ok(Scene { spec, name: name.to_owned(), held: document.files, sets: sets.to_vec(), source })
+    }
+
+    /// Changes a value by its path, as `characters.left.pose_gain`; entries of lists are counted from 0, as `at.0.time_secs`.
+    /// The value is written as in the file; a text may come without its quotes.
+    ///
+    /// # Errors
+    /// A path or value that the scene cannot have; the scene then stays as it was.
+    pub fn set(&mut self, path: &str, value: &str) -> Result<(), SceneError> {
+        let mut sets = self.sets.clone();
+        sets.push((path.to_owned(), value.to_owned()));
+        *self = Scene::load(&self.name, Arc::clone(&self.source), &sets)?;
+        Ok(())
+    }
+
+    /// The scene file's own name, without folders.
+    pub fn file_name(&self) -> &str {
+        &self.name
+    }
+
+    /// Every file that the scene used, the scene file included, by the name that the scene uses for it.
+    pub fn files(&self) -> &BTreeMap<String, HeldFile> {
+        &self.held
+    }
+
+    /// What [`Scene::set`] changed.
+    pub fn sets(&self) -> &[(String, String)] {
+        &self.sets
+    }
+
+    /// Where a file lies; `None` when it is only held in memory.
+    pub fn on_disk(&self, file: &str) -> Option<PathBuf> {
+        self.source.on_disk(file)
+    }
+
+    /// The Python text of a controller.
+    pub fn controller_text(&self, name: &str) -> Option<&str> {
+        let controller = self.spec.controllers.get(name)?;
+        match &controller.file {
+            Some(file) => self.held.get(file)?.text(),
+            None => controller.text.as_deref(),
+        }
+    }
+
+    /// Reads a controller's file again, for a reload while the stage runs.
+    ///
+    /// # Errors
+    /// No such controller, or a file that cannot be read.
+    pub fn controller_text_again(&self, name: &str) -> Result<String, String> {
+        let controller =
+            self.spec.controllers.get(name).ok_or_else(|| format!("no controller `{}`", shortened(name)))?;
+        let Some(file) = &controller.file else { return Ok(controller.text.clone().unwrap_or_default()) };
+        let bytes = self.source.read(file, MOST_PYTHON_BYTES as u64).map_err(|problem| format!("{file}: {problem}"))?;
+        String::from_utf8(bytes).map_err(|_| format!("{file} is no UTF-8 text; save it as UTF-8"))
+    }
+}
+
+/// Files that a scene names besides its pose files: where, which, and how large at most.
+fn named_files(spec: &SceneSpec) -> Vec<(Vec<String>, String, u64)> {
+    let mut files = Vec::new();
+    let mut add = |path: &[&str], file: &Option<String>, most_bytes: u64| {
+        if let Some(file) = file {
+            files.push((path.iter().map(|key| (*key).to_owned()).collect(), file.clone(), most_bytes));
+        }
+    };
+    for (name, character) in &spec.characters {
+        add(&["characters", name, "clip"], &character.clip, MOST_CLIP_BYTES);
+        let clip = character.source.as_ref().and_then(|source| source.clip.clone());
+        add(&["characters", name, "source", "clip"], &clip, MOST_CLIP_BYTES);
+    }
+    for (name, controller) in &spec.controllers {
+        add(&["controllers", name, "file"], &controller.file, MOST_PYTHON_BYTES as u64);
+    }
+    files
+}

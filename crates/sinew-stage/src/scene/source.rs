@@ -1,0 +1,45 @@
+//! Where a character's wanted pose comes from.
+
+use super::error::Fault;
+use super::range::number;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// One of `pose`, `graph`, `clip`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SourceSpec {
+    /// A key pose to aim at.
+    pub pose: Option<String>,
+    /// A pose graph to run.
+    pub graph: Option<String>,
+    /// The graph's state to begin with; its first when left out.
+    pub state: Option<String>,
+    /// A motion file to play.
+    pub clip: Option<String>,
+    /// Where in the clip to begin \[s\].
+    pub start_secs: Option<f64>,
+    /// Whether the clip begins again at its end; `true` when left out. A clip with a gait cycle repeats the cycle.
+    pub repeat: Option<bool>,
+}
+
+impl SourceSpec {
+    pub(super) fn check(&self, name: &str) -> Result<(), Fault> {
+        let path = ["characters", name, "source"];
+        let at = |key| ["characters", name, "source", key];
+        let stated = [&self.pose, &self.graph, &self.clip].into_iter().flatten().count();
+        if stated != 1 {
+            let problem = format!("{stated} of pose, graph and clip are stated; keep exactly one");
+            return Err(Fault::at(&path, problem));
+        }
+        if self.state.is_some() && self.graph.is_none() {
+            return Err(Fault::at(&at("state"), "only a graph has states; add graph, or remove this"));
+        }
+        for (key, is_stated) in [("start_secs", self.start_secs.is_some()), ("repeat", self.repeat.is_some())] {
+            if is_stated && self.clip.is_none() {
+                return Err(Fault::at(&at(key), "only a clip is played so; add clip, or remove this"));
+            }
+        }
+        number(&at("start_secs"), self.start_secs.unwrap_or(0.0), 0.0..=86_400.0, "seconds into the clip are expected")
+    }
+}

@@ -1,0 +1,78 @@
+//! What a script sees: the frame in the script's own words.
+
+use crate::cast::Cast;
+use crate::scene::Scene;
+use sinew_body::humanoid::Node;
+use sinew_script::{CharacterNames, CharacterState, Contact, Names, ObjectState, PartState, Snapshot, Thing};
+use sinew_world::{Entity, World};
+
+/// Names that scripts can use.
+pub(crate) fn names(scene: &Scene, cast: &Cast) -> Names {
+    let with = |keys: Vec<String>, more: &[&str]| -> Vec<String> {
+        more.iter().map(|name| (*name).to_owned()).chain(keys).collect()
+    };
+    let characters = cast.characters().iter().enumerate().map(|(index, name)| CharacterNames {
+        name: name.clone(),
+        aliases: cast.aliases(index).map(|(alias, node)| (alias.clone(), node.part().name().to_owned())).collect(),
+    });
+    let trackers = crate::scene::TrackerKind::ALL.map(|kind| kind.name().to_owned());
+    Names {
+        parts: Node::ALL.map(|node| node.part().name().to_owned()).to_vec(),
+        characters: characters.collect(),
+        objects: cast.props().to_vec(),
+        poses: with(scene.poses.keys().cloned().collect(), &["stand"]),
+        graphs: scene.graphs.keys().cloned().collect(),
+        shapes: with(scene.shapes.keys().cloned().collect(), &["own", "none"]),
+        reflexes: sinew_control::reflex::NAMES.iter().map(|name| (*name).to_owned()).collect(),
+        trackers: trackers.to_vec(),
+    }
+}
+
+fn thing(entity: Entity) -> Thing {
+    match entity {
+        Entity::Floor => Thing::Ground,
+        Entity::Prop(prop) => Thing::Object(prop),
+        Entity::Part(character, node) => Thing::Part(character, node.index()),
+    }
+}
+
+/// The world as it is now.
+pub(crate) fn snapshot(world: &World) -> Snapshot {
+    let frame = world.frame();
+    let characters = frame.characters.iter().enumerate().map(|(index, character)| CharacterState {
+        parts: character
+            .parts
+            .iter()
+            .map(|part| PartState {
+                position: part.position.into(),
+                rotation: part.rotation.into(),
+                velocity: part.velocity.into(),
+            })
+            .collect(),
+        centre_of_mass: character.centre_of_mass.into(),
+        centre_velocity: character.centre_velocity.into(),
+        facing: character.facing.into(),
+        support: character.support.iter().map(|corner| corner.to_array()).collect(),
+        attached: world
+            .held()
+            .filter(|held| held.character == index)
+            .map(|held| (held.node.index(), thing(held.object)))
+            .collect(),
+    });
+    let objects =
+        frame.props.iter().map(|prop| ObjectState { position: prop.centre.into(), velocity: prop.velocity.into() });
+    let contacts = frame.contacts.iter().map(|contact| Contact {
+        a: thing(contact.a),
+        b: thing(contact.b),
+        point: contact.point.into(),
+        impulse: contact.impulse.into(),
+    });
+    Snapshot {
+        step: frame.step,
+        time_secs: frame.time_secs,
+        step_secs: world.settings().step_secs(),
+        characters: characters.collect(),
+        objects: objects.collect(),
+        contacts: contacts.collect(),
+    }
+}

@@ -1,0 +1,64 @@
+//! Things that last for a time: what is to be undone, and when.
+
+use glam::DVec3;
+use sinew_body::humanoid::Node;
+use sinew_world::Entity;
+
+/// What ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// Forces on a part are switched on again.
+    ForcesOff(usize, Node),
+    /// A character is freed from its plane.
+    Plane(usize),
+    /// A character's gravity goes back to its scale in the scene.
+    Gravity(usize),
+    /// A prop's gravity goes back to its scale in the scene.
+    PropGravity(usize),
+    /// A part gets its own shape again.
+    Shape(usize, Node),
+    /// A moving prop keeps its speed.
+    Acceleration(usize),
+}
+
+/// A force that lasts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LastingPush {
+    /// On what.
+    pub on: Entity,
+    /// World axes \[N\].
+    pub force: DVec3,
+    /// The first step in which it no longer acts.
+    pub until_step: u64,
+}
+
+/// Spans that are under way.
+#[derive(Clone, Debug, Default)]
+pub struct Spans {
+    endings: Vec<(u64, Ending)>,
+    /// Forces that act now.
+    pub pushes: Vec<LastingPush>,
+}
+
+/// Pushes that act at the same time; further ones are refused.
+pub const MOST_PUSHES: usize = 1000;
+
+impl Spans {
+    /// Something ends at a step. What ended it before no longer counts: the newest command wins.
+    pub fn end_at(&mut self, step: Option<u64>, ending: Ending) {
+        self.endings.retain(|(_, other)| *other != ending);
+        if let Some(step) = step {
+            self.endings.push((step, ending));
+        }
+    }
+
+    /// What ends at or before a step, in the order in which it was begun.
+    pub fn take_due(&mut self, step: u64) -> Vec<Ending> {
+        if self.endings.iter().all(|(at, _)| *at > step) {
+            return Vec::new();
+        }
+        let due = self.endings.iter().filter(|(at, _)| *at <= step).map(|(_, ending)| ending.clone()).collect();
+        self.endings.retain(|(at, _)| *at > step);
+        due
+    }
+}

@@ -1,0 +1,221 @@
+//! The running stage: commands in, frames out, at a fixed step.
+//!
+//! A step, from left to right, once: what is due (commands of the scene, of the outside, ends of spans) → scripts →
+//! poses and graphs → reflexes → trackers → the world → the frame. What a layer senses is the frame of the step before.
+
+use crate::actor::Actor;
+use crate::build::{self, StageError};
+use crate::cast::Cast;
+use crate::event::{Event, Events};
+use crate::reaction::Reactions;
+use crate::scene::Scene;
+use crate::span::Spans;
+use crate::take::Stamped;
+use sinew_control::{Action, Command};
+use sinew_script::ScriptHost;
+use sinew_world::{Frame, World};
+use std::sync::Arc;
+
+/// A scene that runs.
+pub struct Stage {
+    pub(crate) scene: Arc<Scene>,
+    pub(crate) cast: Cast,
+    pub(crate) world: World,
+    pub(crate) actors: Vec<Actor>,
+    pub(crate) spans: Spans,
+    pub(crate) events: Events,
+    pub(crate) host: Option<ScriptHost>,
+    /// Commands that came from outside, with the steps in which they were obeyed.
+    pub(crate) record: Vec<Stamped>,
+    /// Kills of scripts that a take prescribes; `None` when scripts are held to time themselves.
+    pub(crate) prescribed: Option<Vec<Stamped>>,
+    reactions: Reactions,
+    /// Commands for the next step.
+    inbox: Vec<Command>,
+    /// The scene's own commands that are still to come, the next one last.
+    timed: Vec<(u64, usize, Command)>,
+    hasher: xxhash_rust::xxh3::Xxh3,
+}
+
+impl Stage {
+    /// Builds what a scene describes. `host` says how Python controllers are run; without one a scene that has any is
+    /// refused.
+    ///
+    /// ```
+    /// use sinew_stage::{Scene, Stage};
+    /// let scene = Scene::from_text("format = 1\n[props.ball]\nball_radius_m = 0.1\nmass_kg = 1\nposition_m = [0, 1, 0]")?;
+    /// let mut stage = Stage::new(scene, None)?;
+    /// for _ in 0..240 {
+    ///     stage.step();
+    /// }
+    /// assert!(stage.frame().props[0].position.y < 0.11);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When a clip cannot be read, a pose does not suit its body, a shape is none or a script does not start.
+    pub fn new(scene: Scene, host: Option<ScriptHost>) -> Result<Stage, StageError> {
+        let scene = Arc::new(scene);
+        let cast = Cast::of(&scene);
+        let mut world = World::new(scene.stage.world_settings());
+        let actors = build::populate(&scene, &cast, &mut world)?;
+        let step_secs = world.settings().step_secs();
+        let mut timed: Vec<(u64, usize, Command)> = scene
+            .at
+            .iter()
+            .map(|timed| (step_of(timed.at_secs, step_secs), timed.line, timed.command.clone()))
+            .collect();
+        // Those of one step keep the file's order; the next one lies at the end.
+        timed.sort_by_key(|(step, ..)| *step);
+        timed.reverse();
+        let reactions = Reactions::of(&scene, &cast);
+        let mut stage = Stage {
+            scene,
+            cast,
+            world,
+            actors,
+            spans: Spans::default(),
+            events: Events::default(),
+            host,
+            record: Vec::new(),
+            prescribed: None,
+            reactions,
+            inbox: Vec::new(),
+            timed,
+            hasher: xxhash_rust::xxh3::Xxh3::new(),
+        };
+        build::begin(&mut stage)?;
+        Ok(stage)
+    }
+
+    /// Gives a command; it is obeyed at the beginning of the next step.
+    pub fn command(&mut self, command: Command) {
+        if self.inbox.len() < MOST_INBOX {
+            self.inbox.push(command);
+        }
+    }
+
+    /// Commands bound to a key of the scene; obeyed at the beginning of the next step. Returns whether there are any.
+    pub fn press(&mut self, key: &str) -> bool {
+        let bound: Vec<Command> =
+            self.scene.keys.iter().filter(|binding| binding.key == key).map(|binding| binding.command.clone()).collect();
+        let any = !bound.is_empty();
+        for command in bound {
+            self.command(command);
+        }
+        any
+    }
+
+    /// One physics step.
+    pub fn step(&mut self) {
+        let step = self.world.frame().step;
+        for ending in self.spans.take_due(step) {
+            self.end(&ending);
+        }
+        while let Some((_, line, command)) = self.timed.pop_if(|(at, ..)| *at <= step) {
+            self.obey(&command, &format!("scene, line {line}"));
+        }
+        let prescribed = self.prescribed.iter().flatten().filter(|stamped| stamped.step == step);
+        let prescribed = prescribed.filter(|stamped| !matches!(stamped.command.action, Action::ScriptKilled { .. }));
+        self.inbox.extend(prescribed.map(|stamped| stamped.command.clone()).collect::<Vec<_>>());
+        for command in std::mem::take(&mut self.inbox) {
+            self.record.push(Stamped { step, command: command.clone() });
+            self.obey(&command, "command");
+        }
+        for (command, cause) in self.reactions.fired(self.world.frame(), &self.cast) {
+            self.obey(&command, &cause);
+        }
+        self.step_scripts(step);
+        self.step_actors();
+        self.push_on(step);
+        self.world.step();
+        self.note_resets();
+        self.hasher.update(&self.world.hash().to_le_bytes());
+    }
+
+    /// The frame after the last step.
+    pub fn frame(&self) -> &Frame {
+        self.world.frame()
+    }
+
+    /// Commands that are given at their steps, as a take recorded them. Scripts are stopped where the take says so.
+    pub fn prescribe(&mut self, commands: Vec<Stamped>) {
+        self.prescribed = Some(commands);
+    }
+
+    /// The world, to look at.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The scene that it was made from.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Names of who and what is on it.
+    pub fn cast(&self) -> &Cast {
+        &self.cast
+    }
+
+    /// What happened so far.
+    pub fn events(&self) -> &Events {
+        &self.events
+    }
+
+    /// A hash over all steps so far; equal for equal runs, whatever the machine.
+    pub fn hash(&self) -> u64 {
+        self.hasher.digest()
+    }
+
+    /// Commands that came from outside, for a take.
+    pub fn record(&self) -> &[Stamped] {
+        &self.record
+    }
+
+    /// Which tracker, pose, graph state and layers a character has now.
+    pub fn state_of(&self, character: usize) -> Option<&Actor> {
+        self.actors.get(character)
+    }
+
+    pub(crate) fn note(&mut self, cause: impl Into<String>, effect: impl Into<String>) {
+        let frame = self.world.frame();
+        self.events.note(Event {
+            time_secs: frame.time_secs,
+            step: frame.step,
+            cause: cause.into(),
+            effect: effect.into(),
+        });
+    }
+
+    fn push_on(&mut self, step: u64) {
+        let world = &mut self.world;
+        self.spans.pushes.retain(|push| push.until_step > step);
+        for push in &self.spans.pushes {
+            match push.on {
+                sinew_world::Entity::Part(character, node) => world.push_part(character, node, push.force, None),
+                sinew_world::Entity::Prop(prop) => world.push_prop(prop, push.force, None),
+                sinew_world::Entity::Floor => {}
+            }
+        }
+    }
+
+    fn note_resets(&mut self) {
+        for index in 0..self.actors.len() {
+            if self.world.frame().characters[index].was_reset {
+                self.actors[index].reset();
+                let name = self.cast.characters()[index].clone();
+                self.note("its body had gone wrong", format!("{name} is put back to where it was last sound"));
+            }
+        }
+    }
+}
+
+/// Commands that may wait for a step.
+const MOST_INBOX: usize = 10_000;
+
+/// The step that begins at, or first after, a time.
+pub(crate) fn step_of(secs: f64, step_secs: f64) -> u64 {
+    // A time that is a whole number of steps but for rounding is that number.
+    (secs / step_secs - 1e-6).ceil().max(0.0) as u64
+}

@@ -1,0 +1,88 @@
+//! What a take holds.
+
+use crate::scene::{HeldFile, Scene};
+use sinew_control::Command;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The version of the format that is written.
+pub const TAKE_FORMAT: u32 = 1;
+
+/// A recorded run of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Take {
+    /// The version of Sinew that recorded it.
+    pub version: String,
+    /// The scene file's name, one of [`Take::files`].
+    pub scene: String,
+    /// The scene's seed.
+    pub seed: u64,
+    /// The scene's physics rate \[Hz\].
+    pub physics_hz: u32,
+    /// Values that were changed before the run, as [`Scene::set`] takes them.
+    pub sets: Vec<(String, String)>,
+    /// Every file that the scene used, by the name that the scene uses for it.
+    pub files: BTreeMap<String, TakeFile>,
+    /// Commands from outside the scene, by the step before which they were carried out; never falling.
+    pub commands: Vec<Stamped>,
+    /// Physics steps done.
+    pub steps: u64,
+    /// Hash over all physics steps.
+    pub hash: u64,
+    /// Hashes on the way, to find where a replay leaves the take.
+    pub trace: Option<HashTrace>,
+}
+
+/// A command and its time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stamped {
+    /// Physics steps done before it.
+    pub step: u64,
+    /// The command.
+    pub command: Command,
+}
+
+/// A file of a take.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TakeFile {
+    /// xxh3 of its content, 64 bits.
+    pub hash: u64,
+    /// Its content; `None` for a large one, which a replay reads from where the scene had it.
+    pub bytes: Option<Arc<[u8]>>,
+}
+
+/// The hash after every so many steps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct HashTrace {
+    /// Steps from one to the next, at least 1.
+    pub every_steps: u64,
+    /// The hash over all steps until then.
+    pub hashes: Vec<u64>,
+}
+
+impl Take {
+    /// An empty take of a scene.
+    pub fn of(scene: &Scene) -> Take {
+        let file = |held: &HeldFile| TakeFile {
+            hash: held.hash,
+            bytes: (held.bytes.len() <= super::write::MOST_HELD_BYTES).then(|| Arc::clone(&held.bytes)),
+        };
+        Take {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            scene: scene.file_name().to_owned(),
+            seed: scene.stage.seed,
+            physics_hz: scene.stage.physics_hz,
+            sets: scene.sets().to_vec(),
+            files: scene.files().iter().map(|(path, held)| (path.clone(), file(held))).collect(),
+            commands: Vec::new(),
+            steps: 0,
+            hash: 0,
+            trace: None,
+        }
+    }
+
+    /// Adds a command that is carried out before the next of `step` steps.
+    pub fn push(&mut self, step: u64, command: Command) {
+        self.commands.push(Stamped { step, command });
+    }
+}

@@ -1,0 +1,64 @@
+//! From a take back to its scene.
+
+use super::{Take, TakeFile};
+use crate::scene::{DiskFiles, Files, Scene, SceneError};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Files of a take: what it holds, and large ones from the disk if they are still what they were.
+#[derive(Clone, Debug)]
+struct TakeFiles {
+    files: BTreeMap<String, TakeFile>,
+    disk: Option<DiskFiles>,
+}
+
+impl Files for TakeFiles {
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, String> {
+        let file = self.files.get(path).ok_or("the take was recorded without this file; record it with the file")?;
+        if let Some(bytes) = &file.bytes {
+            let fits = bytes.len() as u64 <= most_bytes;
+            return if fits { Ok(bytes.to_vec()) } else { Err(format!("larger than the {most_bytes} bytes allowed")) };
+        }
+        let Some(disk) = &self.disk else {
+            return Err("the take holds only the hash of this large file; give the scene's folder".to_owned());
+        };
+        let bytes = disk.read(path, most_bytes)?;
+        if xxhash_rust::xxh3::xxh3_64(&bytes) != file.hash {
+            let place = disk.shown(path);
+            return Err(format!("{place} is not the file that the take was recorded with; put the old one back"));
+        }
+        Ok(bytes)
+    }
+
+    fn on_disk(&self, path: &str) -> Option<PathBuf> {
+        let is_large = self.files.get(path).is_some_and(|file| file.bytes.is_none());
+        if is_large { self.disk.as_ref()?.on_disk(path) } else { None }
+    }
+}
+
+impl Take {
+    /// The scene as it was recorded. `folder` is where large files are looked for, of which the take has only the hash: the
+    /// folder that the scene file was in.
+    ///
+    /// # Errors
+    /// A scene that this version does not read, or a large file that is gone or has changed.
+    pub fn to_scene(&self, folder: Option<&Path>) -> Result<Scene, SceneError> {
+        let disk = folder.map(|folder| DiskFiles { folder: folder.to_owned() });
+        let scene = Scene::load(&self.scene, Arc::new(TakeFiles { files: self.files.clone(), disk }), &self.sets)?;
+        let recorded = (self.seed, self.physics_hz);
+        if (scene.stage.seed, scene.stage.physics_hz) != recorded {
+            let problem =
+                "the take's first line states another seed or physics_hz than its scene; record it again".to_owned();
+            return Err(SceneError { file: self.scene.clone(), line: None, path: "stage".to_owned(), problem });
+        }
+        // Commands are as foreign as the scene.
+        for stamped in &self.commands {
+            if let Err(problem) = scene.check_command(&stamped.command) {
+                let problem = format!("the command of step {} does not fit the scene: {problem}", stamped.step);
+                return Err(SceneError { file: self.scene.clone(), line: None, path: String::new(), problem });
+            }
+        }
+        Ok(scene)
+    }
+}

@@ -1,0 +1,84 @@
+//! Writing a take.
+
+use super::line::{CommandLine, EndLine, FileLine, Header, hex};
+use super::read::{MOST_BYTES, MOST_COMMANDS, MOST_LINE_BYTES};
+use super::{TAKE_FORMAT, Take, TakeError};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use std::path::Path;
+
+/// Largest file that a take holds \[bytes\]; of larger ones it keeps the hash. A motion of a few minutes fits.
+pub(super) const MOST_HELD_BYTES: usize = 4 << 20;
+
+impl Take {
+    /// Writes the take to a file, whole or not at all.
+    ///
+    /// # Errors
+    /// As [`Take::to_bytes`], and a folder that cannot be written to.
+    pub fn write(&self, path: &Path) -> Result<(), TakeError> {
+        let bytes = self.to_bytes()?;
+        sinew_motion::formats::write_whole(path, &bytes).map_err(|error| TakeError::Whole(error.to_string()))
+    }
+
+    /// The take file's content.
+    ///
+    /// # Errors
+    /// A command that would not be read again as it is, such as one with an infinite force, and a take beyond the limits.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, TakeError> {
+        let mut out = Vec::new();
+        let header = Header {
+            sinew: "take".to_owned(),
+            format: TAKE_FORMAT,
+            version: self.version.clone(),
+            scene: self.scene.clone(),
+            seed: self.seed,
+            physics_hz: self.physics_hz,
+            sets: self.sets.clone(),
+        };
+        add(&mut out, &header)?;
+        for (path, file) in &self.files {
+            let text = file.bytes.as_deref().and_then(|bytes| std::str::from_utf8(bytes).ok()).map(str::to_owned);
+            let base64 = match (&file.bytes, &text) {
+                (Some(bytes), None) => Some(STANDARD.encode(bytes)),
+                _ => None,
+            };
+            add(&mut out, &FileLine { file: path.clone(), hash: hex(file.hash), text, base64 })?;
+        }
+        if self.commands.len() > MOST_COMMANDS {
+            return Err(TakeError::Whole(format!(
+                "more than {MOST_COMMANDS} commands cannot be recorded; record a shorter run"
+            )));
+        }
+        for stamped in &self.commands {
+            let start = out.len();
+            add(&mut out, &CommandLine { step: stamped.step, command: stamped.command.clone() })?;
+            let again = serde_json::from_slice::<CommandLine>(&out[start..]);
+            if !again.is_ok_and(|again| again.command == stamped.command) {
+                let problem = "a command holds a number that is not finite and cannot be recorded; check commands before \
+                               they are carried out";
+                return Err(TakeError::Whole(format!("step {}: {problem}", stamped.step)));
+            }
+        }
+        let end = EndLine {
+            steps: self.steps,
+            hash: hex(self.hash),
+            every_steps: self.trace.as_ref().map(|trace| trace.every_steps),
+            hashes: self.trace.iter().flat_map(|trace| &trace.hashes).map(|&hash| hex(hash)).collect(),
+        };
+        add(&mut out, &end)?;
+        if out.len() > MOST_BYTES {
+            return Err(TakeError::Whole(format!("the take has more than {MOST_BYTES} bytes; record a shorter run")));
+        }
+        Ok(out)
+    }
+}
+
+fn add<T: serde::Serialize>(out: &mut Vec<u8>, line: &T) -> Result<(), TakeError> {
+    let start = out.len();
+    serde_json::to_writer(&mut *out, line).map_err(|error| TakeError::Whole(format!("cannot be written: {error}")))?;
+    out.push(b'\n');
+    if out.len() - start > MOST_LINE_BYTES {
+        return Err(TakeError::Whole(format!("a line has more than {MOST_LINE_BYTES} bytes; use smaller files")));
+    }
+    Ok(())
+}

@@ -1,0 +1,248 @@
+//! `sinew run` and `sinew replay`.
+
+use super::output;
+use anyhow::{Context, Result, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+use sinew::motion::formats::{Format, WriteJob, write};
+use sinew::run::{Ran, RunJob, body_shapes, character_clip, csv, replay, run, scene_clip, sheet};
+use sinew::script::{Limits, ScriptHost};
+use sinew::stage::{Scene, Take};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `sinew run`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Run {
+    /// The scene file.
+    scene: PathBuf,
+    /// How long to run \[s\] instead of the scene's own duration.
+    #[arg(long = "for", value_name = "SECONDS")]
+    for_secs: Option<f64>,
+    /// Change a value of the scene first, such as characters.left.pose_gain=2; may be repeated.
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    set: Vec<(String, String)>,
+    /// Where to record the take, for `sinew replay`.
+    #[arg(long, value_name = "T.take")]
+    take: Option<PathBuf>,
+    #[command(flatten)]
+    out: Out,
+}
+
+/// Arguments of `sinew replay`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Replay {
+    /// The take to play again.
+    take: PathBuf,
+    /// Change a value of its scene first, such as characters.left.pose_gain=2; may be repeated.
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    set: Vec<(String, String)>,
+    #[command(flatten)]
+    out: Out,
+}
+
+/// Where results go.
+#[derive(Debug, clap::Args)]
+struct Out {
+    /// Where to write the motion: the whole scene as .glb, .gltf or .csv, one character as .bvh (see --character); may be
+    /// repeated.
+    #[arg(short, long, value_name = "OUT")]
+    output: Vec<PathBuf>,
+    /// Write only this character's motion.
+    #[arg(long, value_name = "NAME")]
+    character: Option<String>,
+    /// Where to write a report as JSON.
+    #[arg(long, value_name = "R.json")]
+    report: Option<PathBuf>,
+    /// Where to draw a picture.
+    #[arg(long, value_name = "P.png")]
+    picture: Option<PathBuf>,
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    let (path, value) = text.split_once('=').ok_or("write PATH=VALUE, such as characters.left.pose_gain=2")?;
+    Ok((path.trim().to_owned(), value.trim().to_owned()))
+}
+
+impl Run {
+    pub(super) fn run(&self) -> Result<()> {
+        self.out.check([&self.scene].into_iter(), self.take.iter())?;
+        let mut scene = Scene::read(&self.scene)?;
+        for (path, value) in &self.set {
+            scene.set(path, value)?;
+        }
+        let bar = bar();
+        let job = RunJob { for_secs: self.for_secs, host: script_host() };
+        let for_picture = scene.clone();
+        let ran = run(scene, &job, |done, of| show(&bar, done, of))?;
+        bar.finish_and_clear();
+        if let Some(path) = &self.take {
+            output::make_folder(path)?;
+            ran.take.write(path)?;
+        }
+        self.out.write(&ran, &for_picture)?;
+        let title = self.scene.file_name().unwrap_or_default().display().to_string();
+        self.out.say(&ran, &title, self.take.as_deref())
+    }
+}
+
+impl Replay {
+    pub(super) fn run(&self) -> Result<()> {
+        self.out.check([&self.take].into_iter(), std::iter::empty())?;
+        let take = Take::open(&self.take)?;
+        let folder = self.take.parent();
+        let bar = bar();
+        let ran = replay(&take, &self.set, folder, script_host(), |done, of| show(&bar, done, of))?;
+        bar.finish_and_clear();
+        let mut scene = take.to_scene(folder)?;
+        for (path, value) in &self.set {
+            scene.set(path, value)?;
+        }
+        self.out.write(&ran, &scene)?;
+        let title = self.take.file_name().unwrap_or_default().display().to_string();
+        self.out.say(&ran, &title, None)?;
+        if self.set.is_empty() {
+            if ran.take.hash != take.hash {
+                let place = match first_difference(&ran.take, &take) {
+                    Some(step) => format!("they part before step {step}"),
+                    None => "they part near the end".to_owned(),
+                };
+                bail!(
+                    "the replay's hash is {:016x}, the take's {:016x}: {place}; it was recorded by version {}, this is {}",
+                    ran.take.hash,
+                    take.hash,
+                    take.version,
+                    env!("CARGO_PKG_VERSION")
+                );
+            }
+            output::say("the replay is the take, bit for bit")?;
+        }
+        Ok(())
+    }
+}
+
+impl Out {
+    fn check<'a>(
+        &'a self,
+        inputs: impl Iterator<Item = &'a PathBuf>,
+        more: impl Iterator<Item = &'a PathBuf>,
+    ) -> Result<()> {
+        for path in &self.output {
+            if !is_csv(path) {
+                output::check_format(path)?;
+            }
+        }
+        output::check_places(inputs, self.output.iter().chain(&self.report).chain(&self.picture).chain(more))
+    }
+
+    fn write(&self, ran: &Ran, scene: &Scene) -> Result<()> {
+        let recording = &ran.recording;
+        for path in &self.output {
+            output::make_folder(path)?;
+            if is_csv(path) {
+                output::write_bytes(path, csv(recording).as_bytes())?;
+                continue;
+            }
+            let shows_scene = self.character.is_none() && matches!(Format::of(path), Some(Format::Glb | Format::Gltf));
+            let (clip, shapes) = if shows_scene {
+                scene_clip(recording)
+            } else {
+                let character = self.one_of(ran, path)?;
+                (character_clip(recording, character), body_shapes(&character.body, 0))
+            };
+            for note in write(path, &WriteJob { clip: &clip, source: None }, &shapes)? {
+                eprintln!("note: {note}");
+            }
+        }
+        if let Some(path) = &self.report {
+            output::write_json(path, &ran.report)?;
+        }
+        if let Some(path) = &self.picture {
+            let title = scene.name.clone().unwrap_or_else(|| scene.file_name().to_owned());
+            let subtitle = format!("{:.2} s, {} physics steps", ran.report.duration_s, ran.report.steps);
+            let png = sheet(recording, scene, &title, &subtitle).to_png().context("the picture")?;
+            output::write_bytes(path, &png)?;
+        }
+        Ok(())
+    }
+
+    /// The character that a file of one is to hold.
+    fn one_of<'a>(&self, ran: &'a Ran, path: &Path) -> Result<&'a sinew::stage::RecordedCharacter> {
+        let characters = &ran.recording.characters;
+        let names: Vec<&str> = characters.iter().map(|character| character.name.as_str()).collect();
+        match (&self.character, &characters[..]) {
+            (Some(name), _) => characters
+                .iter()
+                .find(|character| character.name == *name)
+                .with_context(|| format!("no character `{name}`; there are {}", names.join(", "))),
+            (None, [one]) => Ok(one),
+            (None, []) => bail!("{}: the scene has no character; write .glb or .csv", path.display()),
+            (None, _) => bail!(
+                "{}: this format holds one character; add --character NAME of {}, or write .glb",
+                path.display(),
+                names.join(", ")
+            ),
+        }
+    }
+
+    fn say(&self, ran: &Ran, title: &str, take: Option<&Path>) -> Result<()> {
+        let report = &ran.report;
+        let mut lines =
+            vec![format!("{title}: {:.2} s, {} steps, hash {}", report.duration_s, report.steps, report.hash)];
+        for event in report.events.iter().take(MOST_LINES) {
+            lines.push(format!("  {:7.3} s  {}  ({})", event.time_secs, event.effect, event.cause));
+        }
+        let hidden = report.events.len().saturating_sub(MOST_LINES) as u64 + report.events_dropped;
+        if hidden > 0 {
+            lines.push(format!("  and {hidden} more events; --report R.json lists them"));
+        }
+        for (name, character) in &report.characters {
+            let margin = character.com_margin_end_m.map_or("in the air".to_owned(), |margin| {
+                format!("centre of mass {:.0} mm inside its support", margin * 1e3)
+            });
+            lines.push(format!(
+                "{name}: hips at {:.2} m (lowest {:.2} m), {} steps, {margin}",
+                character.hips_height_end_m, character.hips_height_min_m, character.steps
+            ));
+        }
+        let written = self.output.iter().chain(&self.report).chain(&self.picture).map(PathBuf::as_path).chain(take);
+        let written: Vec<String> = written.map(|path| path.display().to_string()).collect();
+        if !written.is_empty() {
+            lines.push(format!("wrote {}", written.join(", ")));
+        }
+        output::say(&lines.join("\n"))
+    }
+}
+
+/// This program itself runs Python controllers, in a process of their own; one that was built without Python refuses them.
+fn script_host() -> Option<ScriptHost> {
+    let program = std::env::current_exe().ok()?;
+    let args = vec!["script-host".to_owned()];
+    cfg!(feature = "python").then(|| ScriptHost { program, args, limits: Limits::default() })
+}
+
+/// The first step at which the hashes on the way differ.
+fn first_difference(one: &Take, other: &Take) -> Option<u64> {
+    let (one, other) = (one.trace.as_ref()?, other.trace.as_ref()?);
+    let place = one.hashes.iter().zip(&other.hashes).position(|(a, b)| a != b)?;
+    (one.every_steps == other.every_steps).then(|| (place as u64 + 1) * one.every_steps)
+}
+
+/// Events that are printed.
+const MOST_LINES: usize = 30;
+
+fn is_csv(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+}
+
+/// A progress bar on a terminal, nothing when piped.
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent} % {elapsed}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn show(bar: &ProgressBar, done: u64, of: u64) {
+    bar.set_length(of);
+    bar.set_position(done);
+}

@@ -1,0 +1,195 @@
+//! A recording as clips and tables.
+
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_motion::formats::BodyShape;
+use sinew_motion::{Clip, Joint, Skeleton, Transform};
+use sinew_stage::{RecordedCharacter, Recording};
+use sinew_world::{Form, Solid, part_solid, ring_corners};
+use std::fmt::Write;
+
+/// One character's motion as a clip of the 18 bodies, joints named as VRM bones.
+pub fn character_clip(recording: &Recording, character: &RecordedCharacter) -> Clip {
+    let mut skeleton = Skeleton::new();
+    push_character(&mut skeleton, character, "");
+    let mut clip = Clip::new(skeleton, 1.0 / recording.motion_hz, vec![0]);
+    for pose in &character.poses {
+        clip.push(&locals(&character.body, pose));
+    }
+    clip
+}
+
+/// All characters and props in one clip, names as `left:hips`, and what each looks like.
+pub fn scene_clip(recording: &Recording) -> (Clip, Vec<BodyShape>) {
+    let mut skeleton = Skeleton::new();
+    let (mut moving, mut shapes) = (Vec::new(), Vec::new());
+    for character in &recording.characters {
+        let first = push_character(&mut skeleton, character, &format!("{}:", character.name));
+        moving.push(first);
+        shapes.extend(body_shapes(&character.body, first));
+    }
+    for prop in &recording.props {
+        let (position, rotation) = prop.places.first().copied().unwrap_or((DVec3::ZERO, DQuat::IDENTITY));
+        let rest = Transform::new(rotation, position);
+        let joint = skeleton.push(Joint { name: prop.name.clone(), parent: None, rest, tip: None });
+        moving.push(joint);
+        if !prop.is_sensor {
+            shapes.extend(capsules(&prop.solid).into_iter().map(|(from, to, radius_m)| BodyShape {
+                joint,
+                from,
+                to,
+                radius_m,
+            }));
+        }
+    }
+    let mut clip = Clip::new(skeleton, 1.0 / recording.motion_hz, moving);
+    for frame in 0..recording.frames {
+        let mut all = Vec::new();
+        for character in &recording.characters {
+            all.extend(locals(&character.body, &character.poses[frame]));
+        }
+        all.extend(recording.props.iter().map(|prop| {
+            let (position, rotation) = prop.places[frame];
+            Transform::new(rotation, position)
+        }));
+        clip.push(&all);
+    }
+    (clip, shapes)
+}
+
+/// The capsules of a body, its hips being joint `first` of the clip.
+pub fn body_shapes(body: &Body, first: usize) -> Vec<BodyShape> {
+    let shapes = Node::ALL.into_iter().flat_map(|node| {
+        capsules(&part_solid(body, node)).into_iter().map(move |(from, to, radius_m)| BodyShape {
+            joint: first + node.index(),
+            from,
+            to,
+            radius_m,
+        })
+    });
+    shapes.collect()
+}
+
+fn push_character(skeleton: &mut Skeleton, character: &RecordedCharacter, prefix: &str) -> usize {
+    let first = skeleton.len();
+    for node in Node::ALL {
+        let link = character.body.link(node);
+        let leaf = !Node::ALL.iter().any(|other| other.parent() == Some(node));
+        let rest = match node.parent() {
+            Some(_) => Transform::new(DQuat::IDENTITY, link.offset),
+            None => character.poses.first().map_or(Transform::IDENTITY, |pose| {
+                Transform::new(DQuat::IDENTITY, DVec3::new(0.0, pose.hips_position.y, 0.0))
+            }),
+        };
+        skeleton.push(Joint {
+            name: format!("{prefix}{}", node.part().name()),
+            parent: node.parent().map(|parent| first + parent.index()),
+            rest,
+            tip: leaf.then_some(link.tip),
+        });
+    }
+    first
+}
+
+fn locals(body: &Body, pose: &Pose) -> [Transform; Node::COUNT] {
+    Node::ALL.map(|node| match node.parent() {
+        Some(_) => Transform::new(pose.local(node).normalize(), body.link(node).offset),
+        None => Transform::new(pose.local(node).normalize(), pose.hips_position),
+    })
+}
+
+/// A solid as capsules: exact for balls, capsules and rings; a box as its edges and diagonals of its faces.
+pub fn capsules(solid: &Solid) -> Vec<(DVec3, DVec3, f64)> {
+    let place = |point: DVec3| solid.centre + solid.rotation * point;
+    let line = |from: DVec3, to: DVec3, radius: f64| (place(from), place(to), radius);
+    match &solid.form {
+        Form::Ball { radius_m } => vec![line(DVec3::ZERO, DVec3::ZERO, *radius_m)],
+        Form::Capsule { radius_m, length_m } => {
+            let half = DVec3::Y * (length_m / 2.0);
+            vec![line(-half, half, *radius_m)]
+        }
+        Form::Ring { radius_m, tube_m } => {
+            let corners = ring_corners(*radius_m);
+            (0..corners.len()).map(|at| line(corners[at], corners[(at + 1) % corners.len()], *tube_m)).collect()
+        }
+        Form::Box { size_m } => boxed(*size_m).into_iter().map(|(from, to, radius)| line(from, to, radius)).collect(),
+        Form::Mesh { points_m, triangles } => {
+            let edges = triangles.iter().take(MOST_EDGES / 3).flat_map(|corners| {
+                [(0, 1), (1, 2), (2, 0)].map(|(from, to)| (corners[from] as usize, corners[to] as usize))
+            });
+            let edge = |(from, to): (usize, usize)| Some(line(*points_m.get(from)?, *points_m.get(to)?, EDGE_M));
+            edges.filter_map(edge).collect()
+        }
+        Form::Hull { points_m } => {
+            let middle = points_m.iter().sum::<DVec3>() / points_m.len().max(1) as f64;
+            points_m.iter().take(MOST_EDGES).map(|point| line(middle, *point, EDGE_M)).collect()
+        }
+    }
+}
+
+/// Edges of a mesh that are shown.
+const MOST_EDGES: usize = 600;
+
+/// Half the thickness of a shown edge \[m\].
+const EDGE_M: f64 = 0.01;
+
+/// A box as bars along its longest edge, as thick as its shortest: filled where it is flat or long.
+fn boxed(size: DVec3) -> Vec<(DVec3, DVec3, f64)> {
+    let mut axes = [0, 1, 2];
+    let sizes = size.to_array();
+    axes.sort_by(|&a, &b| sizes[a].total_cmp(&sizes[b]));
+    let [thin, middle, long] = axes;
+    let radius = sizes[thin] / 2.0;
+    let unit = |axis: usize| DVec3::AXES[axis];
+    let reach = (sizes[long] / 2.0 - radius).max(0.0);
+    // Bars side by side, a radius and a half apart, so that the surface looks closed.
+    let span = (sizes[middle] / 2.0 - radius).max(0.0);
+    let bars = ((2.0 * span / (1.5 * radius)).ceil() as usize + 1).clamp(1, 60);
+    (0..bars)
+        .map(|bar| {
+            let across = if bars == 1 { 0.0 } else { -span + 2.0 * span * bar as f64 / (bars - 1) as f64 };
+            let middle = unit(middle) * across;
+            (middle - unit(long) * reach, middle + unit(long) * reach, radius)
+        })
+        .collect()
+}
+
+/// A recording as a table: time, then place and rotation of every body, one row a frame.
+pub fn csv(recording: &Recording) -> String {
+    let mut text = String::from("time_s");
+    let mut head = |name: &str| {
+        for column in ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"] {
+            let _ = write!(text, ",{name}.{column}");
+        }
+    };
+    for character in &recording.characters {
+        for node in Node::ALL {
+            head(&format!("{}.{}", character.name, node.part().name()));
+        }
+    }
+    for prop in &recording.props {
+        head(&prop.name);
+    }
+    text.push('\n');
+    for frame in 0..recording.frames {
+        let _ = write!(text, "{:.6}", recording.time_secs(frame));
+        let mut body = |position: DVec3, rotation: DQuat| {
+            for value in position.to_array().into_iter().chain(rotation.to_array()) {
+                let _ = write!(text, ",{value:.9}");
+            }
+        };
+        for character in &recording.characters {
+            let pose = &character.poses[frame];
+            let positions = pose.positions(&character.body);
+            for node in Node::ALL {
+                body(positions[node.index()], pose.world[node.index()]);
+            }
+        }
+        for prop in &recording.props {
+            let (position, rotation) = prop.places[frame];
+            body(position, rotation);
+        }
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,117 @@
+//! From a scene or a take to what it showed.
+
+use super::report::RunReport;
+use sinew_script::ScriptHost;
+use sinew_stage::{Recording, Scene, SceneError, Stage, StageError, Take};
+use std::path::Path;
+
+/// How a scene is to be run.
+#[derive(Clone, Debug, Default)]
+pub struct RunJob {
+    /// For how long \[s\]; the scene's own duration when left out.
+    pub for_secs: Option<f64>,
+    /// How Python controllers are run; `None` refuses scenes that have any.
+    pub host: Option<ScriptHost>,
+}
+
+/// A run: the report, the motion, the take.
+pub struct Ran {
+    /// What happened, in numbers.
+    pub report: RunReport,
+    /// What was seen.
+    pub recording: Recording,
+    /// All that is needed to see it again.
+    pub take: Take,
+}
+
+/// Why a scene does not run.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The scene file.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// What it describes cannot be built.
+    #[error(transparent)]
+    Stage(#[from] StageError),
+    /// A duration out of range.
+    #[error("{0} s is out of range; give more than 0 and at most {MOST_SECS} s")]
+    Duration(f64),
+}
+
+/// The longest run \[s\].
+const MOST_SECS: f64 = 3600.0;
+
+/// Steps between two hashes of a take's trace: one a second at 240 Hz.
+const TRACE_STEPS: u64 = 240;
+
+/// Runs a scene. `progress` is told how many steps are done, of how many.
+///
+/// ```
+/// use sinew::run::{RunJob, run};
+/// use sinew::stage::Scene;
+/// let scene = Scene::from_text("format = 1\n[characters.one]\npose = \"stand\"\n")?;
+/// let ran = run(scene, &RunJob { for_secs: Some(0.5), ..RunJob::default() }, |_, _| ())?;
+/// assert_eq!(ran.report.steps, 120);
+/// assert_eq!(ran.recording.frames, 31);
+/// # Ok::<(), sinew::run::RunError>(())
+/// ```
+///
+/// # Errors
+/// When the scene cannot be built or the time is out of range.
+pub fn run(scene: Scene, job: &RunJob, progress: impl FnMut(u64, u64)) -> Result<Ran, RunError> {
+    let for_secs = job.for_secs.unwrap_or(scene.stage.duration_secs);
+    if !(for_secs > 0.0 && for_secs <= MOST_SECS) {
+        return Err(RunError::Duration(for_secs));
+    }
+    let steps = (for_secs * f64::from(scene.stage.physics_hz)).round().max(1.0) as u64;
+    let take = Take::of(&scene);
+    let stage = Stage::new(scene, job.host.clone())?;
+    Ok(play(stage, steps, take, progress))
+}
+
+/// Plays a take again, with the commands at their steps. `sets` change values of the scene first, as `--set` does;
+/// `folder` is where large files are looked for that the take only names.
+///
+/// # Errors
+/// When the take's scene no longer reads or cannot be built.
+pub fn replay(
+    take: &Take,
+    sets: &[(String, String)],
+    folder: Option<&Path>,
+    host: Option<ScriptHost>,
+    progress: impl FnMut(u64, u64),
+) -> Result<Ran, RunError> {
+    let mut scene = take.to_scene(folder)?;
+    for (path, value) in sets {
+        scene.set(path, value)?;
+    }
+    let again = Take::of(&scene);
+    let mut stage = Stage::new(scene, host)?;
+    stage.prescribe(take.commands.clone());
+    Ok(play(stage, take.steps, again, progress))
+}
+
+fn play(mut stage: Stage, steps: u64, mut take: Take, mut progress: impl FnMut(u64, u64)) -> Ran {
+    let mut recording = Recording::new(&stage);
+    let mut report = RunReport::of(&stage);
+    recording.push(&stage);
+    let per_frame = u64::from(stage.scene().stage.steps_per_frame());
+    let mut hashes = Vec::new();
+    for step in 1..=steps {
+        stage.step();
+        report.watch(&stage);
+        if step % per_frame == 0 {
+            recording.push(&stage);
+        }
+        if step % TRACE_STEPS == 0 {
+            hashes.push(stage.hash());
+            progress(step, steps);
+        }
+    }
+    take.commands = stage.record().to_vec();
+    take.steps = steps;
+    take.hash = stage.hash();
+    take.trace = Some(sinew_stage::take::HashTrace { every_steps: TRACE_STEPS, hashes });
+    report.finish(&stage);
+    Ran { report, recording, take }
+}

@@ -1,0 +1,11 @@
+//! `sinew run` and `sinew replay` as library calls: a stage runs, and what it showed goes into files and pictures.
+
+mod draw;
+mod export;
+mod job;
+mod report;
+
+pub use draw::{figure, sheet};
+pub use export::{body_shapes, character_clip, csv, scene_clip};
+pub use job::{Ran, RunError, RunJob, replay, run};
+pub use report::RunReport;

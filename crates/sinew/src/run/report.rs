@@ -1,0 +1,114 @@
+//! What happened in a run, in numbers.
+
+use serde::Serialize;
+use sinew_stage::{Event, Stage};
+use sinew_world::{Entity, margin};
+use std::collections::BTreeMap;
+
+/// The report of `sinew run` and `sinew replay`. Keys carry their units.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RunReport {
+    /// The scene file.
+    pub scene: String,
+    /// Physics steps done.
+    pub steps: u64,
+    /// Time simulated \[s\].
+    pub duration_s: f64,
+    /// Hash over all physics steps, hexadecimal.
+    pub hash: String,
+    /// What happened, with causes.
+    pub events: Vec<Event>,
+    /// Events that are not listed because there were so many.
+    pub events_dropped: u64,
+    /// Every character by name.
+    pub characters: BTreeMap<String, CharacterReport>,
+    /// Largest gap between two parts at their joint \[m\].
+    pub joint_gap_max_m: f64,
+}
+
+/// One character.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct CharacterReport {
+    /// Smallest height of the hips \[m\].
+    pub hips_height_min_m: f64,
+    /// Height of the hips at the end \[m\].
+    pub hips_height_end_m: f64,
+    /// Where the centre of mass is at the end \[m\].
+    pub centre_end_m: [f64; 3],
+    /// How far the centre of mass lies inside the support polygon at the end \[m\]; null in the air.
+    pub com_margin_end_m: Option<f64>,
+    /// Times that a foot came down: a new contact of a foot with the ground after it was off for a while.
+    pub steps: u64,
+    /// Largest impulse of one touch by something else than the ground, in one physics step \[N s\].
+    pub hit_impulse_max_n_s: f64,
+    /// Times that it was put back because its body went wrong.
+    pub resets: u64,
+    #[serde(skip)]
+    in_the_air: [u64; 2],
+}
+
+/// Physics steps that a foot must have been off the ground for its touch to count as a step: a twentieth of a second at 240 Hz.
+const OFF_STEPS: u64 = 12;
+
+impl RunReport {
+    /// An empty report of a stage that begins.
+    pub fn of(stage: &Stage) -> RunReport {
+        let characters = stage.cast().characters().iter().map(|name| {
+            let begin = CharacterReport { hips_height_min_m: f64::INFINITY, ..CharacterReport::default() };
+            (name.clone(), begin)
+        });
+        RunReport {
+            scene: stage.scene().file_name().to_owned(),
+            steps: 0,
+            duration_s: 0.0,
+            hash: String::new(),
+            events: Vec::new(),
+            events_dropped: 0,
+            characters: characters.collect(),
+            joint_gap_max_m: 0.0,
+        }
+    }
+
+    /// Looks at the stage after a step.
+    pub fn watch(&mut self, stage: &Stage) {
+        use sinew_body::humanoid::Node;
+        let frame = stage.frame();
+        self.joint_gap_max_m = self.joint_gap_max_m.max(stage.world().largest_joint_gap_m());
+        for (index, character) in self.characters.values_mut().enumerate() {
+            let seen = &frame.characters[index];
+            character.hips_height_min_m = character.hips_height_min_m.min(seen.parts[0].position.y);
+            character.resets += u64::from(seen.was_reset);
+            let is_own = |entity: Entity| matches!(entity, Entity::Part(owner, _) if owner == index);
+            for contact in &frame.contacts {
+                if is_own(contact.a) != is_own(contact.b) && contact.a != Entity::Floor {
+                    character.hit_impulse_max_n_s = character.hit_impulse_max_n_s.max(contact.impulse.length());
+                }
+            }
+            for (side, foot) in [Node::LeftFoot, Node::RightFoot].into_iter().enumerate() {
+                if frame.are_touching(Entity::Floor, Entity::Part(index, foot)) {
+                    character.steps += u64::from(character.in_the_air[side] >= OFF_STEPS);
+                    character.in_the_air[side] = 0;
+                } else {
+                    character.in_the_air[side] += 1;
+                }
+            }
+        }
+    }
+
+    /// Fills in what is known at the end.
+    pub fn finish(&mut self, stage: &Stage) {
+        let frame = stage.frame();
+        self.steps = frame.step;
+        self.duration_s = frame.time_secs;
+        self.hash = format!("{:016x}", stage.hash());
+        self.events = stage.events().list().to_vec();
+        self.events_dropped = stage.events().dropped();
+        for (index, character) in self.characters.values_mut().enumerate() {
+            let seen = &frame.characters[index];
+            character.hips_height_end_m = seen.parts[0].position.y;
+            character.centre_end_m = seen.centre_of_mass.into();
+            let inside = margin(&seen.support, seen.centre_of_mass);
+            character.com_margin_end_m = inside.is_finite().then_some(inside);
+        }
+    }
+}
