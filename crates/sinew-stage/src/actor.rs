@@ -5,7 +5,7 @@ use crate::scene::TrackerKind;
 use crate::scripts::Running;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Limb, Node};
-use sinew_control::graph::{Graph, GraphPlayer};
+use sinew_control::graph::{Cause, Graph, GraphPlayer};
 use sinew_control::ik::Reach;
 use sinew_control::pose::{KeyPose, PosePlayer};
 use sinew_control::reflex::{Reflex, Sense};
@@ -197,7 +197,7 @@ impl Actor {
     }
 
     /// Decides what is wanted at the end of the next step. Returns what the graph did, if it did something: cause and effect.
-    pub(crate) fn decide(&mut self, world: &World, gravity_m_s2: f64) -> Option<(String, String)> {
+    pub(crate) fn decide(&mut self, world: &World, gravity_m_s2: f64) -> Option<(Cause, String)> {
         let frame = world.frame();
         let step_secs = self.step_secs;
         let mut happened = None;
@@ -209,7 +209,7 @@ impl Actor {
             self.player.aim(player.pose(graph));
             player.pose_name(graph).clone_into(&mut self.pose);
             let (from, to) = transition.names(graph);
-            happened = Some((transition.cause.to_string(), format!("{name}: from {from} to {to}")));
+            happened = Some((transition.cause, format!("{name}: from {from} to {to}")));
         }
         self.signals.clear();
         for joint in &mut self.target.joints {

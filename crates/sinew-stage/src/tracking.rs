@@ -3,6 +3,7 @@
 use crate::Stage;
 use crate::scene::TrackerKind;
 use sinew_body::humanoid::{Node, Pose};
+use sinew_control::graph::Cause;
 
 impl Stage {
     /// Every actor decides, and its tracker tells the world.
@@ -10,8 +11,18 @@ impl Stage {
         let gravity = self.world.settings().gravity_m_s2;
         for index in 0..self.actors.len() {
             if let Some((cause, effect)) = self.actors[index].decide(&self.world, gravity) {
-                let name = self.cast.characters()[index].clone();
-                self.note(cause, format!("{name}: {effect}"));
+                let name = &self.cast.characters()[index];
+                let effect = format!("{name}: {effect}");
+                let cause = match cause {
+                    Cause::Touch(touch) => format!(
+                        "{} touches {} with {:.2} N s",
+                        self.cast.name_of(touch.a),
+                        self.cast.name_of(touch.b),
+                        touch.impulse.length()
+                    ),
+                    other => other.to_string(),
+                };
+                self.note(cause, effect);
             }
             self.track(index);
         }
