@@ -1,7 +1,16 @@
 //! How a body follows its target.
 
+mod clock;
+mod felt;
 mod gains;
+mod glide;
+mod hold;
+mod kinematic;
 mod pd;
+mod response;
 
 pub use gains::{Gains, JointGain};
+pub use hold::Grip;
+pub use kinematic::KinematicTracker;
 pub use pd::PdTracker;
+pub use response::ResponseTracker;

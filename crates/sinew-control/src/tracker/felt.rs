@@ -1,0 +1,73 @@
+//! What a character feels: the forces of contacts on its parts, as their mean over a motion frame.
+
+use glam::DVec3;
+use sinew_body::humanoid::Node;
+use sinew_response::PointForce;
+use sinew_world::{Entity, Frame, World};
+
+/// Impulses on the parts of a character since the motion frame began.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Felt {
+    /// By [`Node::index`].
+    parts: [Touch; Node::COUNT],
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Touch {
+    /// Sum of the impulses \[N s\], world.
+    impulse: DVec3,
+    /// Sum of their sizes \[N s\].
+    size: f64,
+    /// Sum of their points in the part's frame, times their sizes.
+    moment: DVec3,
+}
+
+impl Felt {
+    /// Adds what the world's last step did to a character. Floor, ground prop, own parts and what the character holds do
+    /// not count: the wanted motion stands on the ones and carries the others already.
+    pub(crate) fn add(&mut self, world: &World, character: usize, ground: Option<usize>) {
+        let frame = world.frame();
+        let counts = |other: Entity| match other {
+            Entity::Floor => false,
+            Entity::Prop(prop) => {
+                ground != Some(prop)
+                    && !world.held().any(|held| held.character == character && held.object == other)
+            }
+            Entity::Part(owner, _) => owner != character,
+        };
+        for contact in &frame.contacts {
+            match (contact.a, contact.b) {
+                (Entity::Part(owner, node), other) if owner == character && counts(other) => {
+                    self.touch(frame, character, node, contact.point, -contact.impulse);
+                }
+                (other, Entity::Part(owner, node)) if owner == character && counts(other) => {
+                    self.touch(frame, character, node, contact.point, contact.impulse);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn touch(&mut self, frame: &Frame, character: usize, node: Node, point: DVec3, impulse: DVec3) {
+        let Some(part) = frame.characters.get(character).map(|one| one.part(node)) else { return };
+        let size = impulse.length();
+        if size > 0.0 && impulse.is_finite() && point.is_finite() {
+            let touch = &mut self.parts[node.index()];
+            touch.impulse += impulse;
+            touch.size += size;
+            touch.moment += part.rotation.conjugate() * (point - part.position) * size;
+        }
+    }
+
+    /// The mean forces over the motion frame that ends; the next one begins with none.
+    pub(crate) fn take(&mut self, frame_secs: f64, forces: &mut Vec<PointForce>) {
+        forces.clear();
+        for (node, touch) in Node::ALL.into_iter().zip(&self.parts) {
+            if touch.size > 0.0 {
+                let point = Some(touch.moment / touch.size);
+                forces.push(PointForce { node, point, force_n: touch.impulse / frame_secs });
+            }
+        }
+        self.parts = [Touch::default(); Node::COUNT];
+    }
+}

@@ -1,0 +1,119 @@
+//! Pins that carry a body along a moving pose.
+
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Node, Pose, log};
+use sinew_world::{Drive, Pin, World};
+
+/// How firmly the parts of a body are held to their places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grip {
+    /// Frequency of the spring that holds each part, critically damped \[Hz\]. A part that is pushed off comes back within
+    /// about half of its period.
+    pub frequency_hz: f64,
+    /// Largest acceleration that it gives a part on top of carrying its weight \[m/s²\].
+    pub max_acceleration: f64,
+}
+
+/// A pose at one instant, as the pins need it.
+#[derive(Clone, Copy, Debug)]
+struct Instant {
+    joints: [DVec3; Node::COUNT],
+    centres: [DVec3; Node::COUNT],
+    rotations: [DQuat; Node::COUNT],
+}
+
+impl Instant {
+    fn of(body: &Body, pose: &Pose) -> Instant {
+        let joints = pose.positions(body);
+        let centre = |node: Node| joints[node.index()] + pose.world[node.index()] * body.link(node).centre;
+        Instant { joints, centres: Node::ALL.map(centre), rotations: pose.world }
+    }
+}
+
+/// How the ground under a pose moves.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct GroundMotion {
+    /// \[m\]
+    pub shift: DVec3,
+    /// \[m/s\]
+    pub velocity: DVec3,
+    /// \[m/s²\]
+    pub acceleration: DVec3,
+}
+
+/// Holds all parts of a body to a pose that moves from one step of physics to the next.
+#[derive(Clone, Debug)]
+pub(crate) struct Hold {
+    grip: Grip,
+    before: Instant,
+    now: Instant,
+}
+
+impl Hold {
+    /// At rest.
+    pub(crate) fn new(grip: Grip, body: &Body, pose: &Pose) -> Hold {
+        let now = Instant::of(body, pose);
+        Hold { grip, before: now, now }
+    }
+
+    /// Sets the pins of a character so that it is in `next` at the end of the world's next step.
+    pub(crate) fn carry_to(&mut self, next: &Pose, ground: &GroundMotion, world: &mut World, character: usize) {
+        let step_secs = world.settings().step_secs();
+        let Some(body) = world.body(character) else { return };
+        let next = Instant::of(body, next);
+        let omega = std::f64::consts::TAU * self.grip.frequency_hz;
+        let (stiffness, damping) = (omega * omega, 2.0 * omega);
+        // A pin knows of no acceleration: velocity that is asked for too much makes up for it.
+        let lead_secs = (1.0 + step_secs * damping + step_secs * step_secs * stiffness)
+            / (damping + step_secs * stiffness).max(1e-9);
+        let max_forces = Node::ALL.map(|node| body.link(node).mass_kg * (self.grip.max_acceleration + GRAVITY));
+        let outboard = world.outboard_inertias(character).copied().unwrap_or([0.0; Node::COUNT]);
+        let mut spins = [DVec3::ZERO; Node::COUNT];
+        for node in Node::ALL {
+            let at = node.index();
+            let (back, on) = (turn(&self.before, &self.now, at), turn(&self.now, &next, at));
+            let (behind, ahead) = (self.now.centres[at] - self.before.centres[at], next.centres[at] - self.now.centres[at]);
+            let velocity = (behind + ahead) / (2.0 * step_secs) + ground.velocity;
+            let acceleration = (ahead - behind) / (step_secs * step_secs) + ground.acceleration;
+            spins[at] = (back + on) / (2.0 * step_secs);
+            let pin = Pin {
+                position: self.now.joints[at] + ground.shift,
+                rotation: self.now.rotations[at],
+                velocity: velocity + acceleration * lead_secs,
+                angular_velocity: spins[at] + (on - back) / (step_secs * step_secs) * lead_secs,
+                stiffness,
+                damping,
+                gravity_share: 1.0,
+                max_force_n: max_forces[at],
+            };
+            world.set_pin(character, node, Some(pin));
+            let Some(parent) = node.parent().map(Node::index) else { continue };
+            let (rotation, above) = (self.now.rotations[at], self.now.rotations[parent]);
+            world.set_drive(
+                character,
+                node,
+                Drive {
+                    rotation: (above.conjugate() * rotation).normalize(),
+                    velocity: rotation.conjugate() * (spins[at] - spins[parent]),
+                    stiffness: outboard[at] * JOINT_STIFFNESS,
+                    damping: outboard[at] * JOINT_DAMPING,
+                    torque: DVec3::ZERO,
+                },
+            );
+        }
+        self.before = self.now;
+        self.now = next;
+    }
+}
+
+/// From one instant to the next, world \[rad\].
+fn turn(from: &Instant, to: &Instant, at: usize) -> DVec3 {
+    log(to.rotations[at] * from.rotations[at].conjugate())
+}
+
+/// What a pin carries of a part's weight comes out of its largest force \[m/s²\].
+const GRAVITY: f64 = 9.81;
+
+/// Joints are nearly limp, with the friction that they have anyway: relative to what hangs from them \[1/s²\], \[1/s\].
+const JOINT_STIFFNESS: f64 = 1.0;
+const JOINT_DAMPING: f64 = 2.0;

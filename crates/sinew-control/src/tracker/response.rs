@@ -1,0 +1,144 @@
+//! The response as a citizen of the world: it feels what it touches, and pushes with its own mass.
+//!
+//! All parts stay dynamic bodies. Implicit springs of limited force hold them to the pose that the response
+//! gives out, so that at the instant of a contact a part is as heavy as it is and no heavier. What contacts did to the parts
+//! over a motion frame is handed to the response as forces; its answer is where the parts are held next. So the part that was hit
+//! first gives way by its own inertia and then yields in the style of the response.
+
+use super::clock::Clock;
+use super::felt::Felt;
+use super::glide::Glide;
+use super::hold::{Grip, GroundMotion, Hold};
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_response::{Basis, PointForce, Response, Settings};
+use sinew_world::World;
+
+/// Follows wanted poses with the response of [`sinew_response`], in a world.
+///
+/// Each step of physics: [`physics_step`](ResponseTracker::physics_step), then [`World::step`]. Where
+/// [`wants_pose`](ResponseTracker::wants_pose) says so, that is at the start of each motion frame, hand it the pose of the
+/// frame's end first. Contacts of a motion frame show in the pose of the next one.
+///
+/// Wanted poses are taken as on ground at rest. On a moving platform say so with
+/// [`stand_on`](ResponseTracker::stand_on): body and wanted poses are carried along, and the upper body lags.
+#[derive(Clone, Debug)]
+pub struct ResponseTracker {
+    response: Response,
+    clock: Clock,
+    glide: Glide,
+    hold: Hold,
+    wanted: Pose,
+    felt: Felt,
+    forces: Vec<PointForce>,
+    platform: Option<Platform>,
+}
+
+/// A moving prop that the character stands on.
+#[derive(Clone, Copy, Debug)]
+struct Platform {
+    prop: usize,
+    /// Where it was when the character stepped on it \[m\].
+    origin: DVec3,
+    /// Its velocity one step of physics ago, and one motion frame ago \[m/s\].
+    step_velocity: DVec3,
+    frame_velocity: DVec3,
+}
+
+impl Grip {
+    /// Firm enough that the eye sees no difference between the body and its pose, soft enough that a hit shows.
+    pub const RESPONSE: Grip = Grip { frequency_hz: 6.0, max_acceleration: 150.0 };
+}
+
+impl ResponseTracker {
+    /// Starts at rest in `first`. `body` is the one that the world's character was made of, its limits widened to the motion;
+    /// wanted poses come every [`Settings::time_step_secs`].
+    pub fn new(body: Body, basis: Basis, settings: Settings, first: &Pose) -> ResponseTracker {
+        ResponseTracker {
+            hold: Hold::new(Grip::RESPONSE, &body, first),
+            response: Response::new(body, basis, settings, first),
+            clock: Clock::new(settings.time_step_secs),
+            glide: Glide::rest(first),
+            wanted: *first,
+            felt: Felt::default(),
+            forces: Vec::with_capacity(Node::COUNT),
+            platform: None,
+        }
+    }
+
+    /// Whether the next step of physics begins a motion frame.
+    pub fn wants_pose(&self) -> bool {
+        self.clock.is_due()
+    }
+
+    /// The pose for the end of the motion frame that begins. One that is not finite is passed over.
+    pub fn wanted(&mut self, pose: &Pose) {
+        if pose.is_finite() {
+            self.wanted = *pose;
+        }
+    }
+
+    /// Stands on a prop that moves, from now on, or on ground at rest again.
+    pub fn stand_on(&mut self, world: &World, prop: Option<usize>) {
+        self.platform = prop.and_then(|prop| {
+            let state = world.frame().props.get(prop)?;
+            let (origin, velocity) = (state.position, state.velocity);
+            Some(Platform { prop, origin, step_velocity: velocity, frame_velocity: velocity })
+        });
+    }
+
+    /// Reads the contacts of the world's last step, and says where every part is to be held in its next one.
+    pub fn physics_step(&mut self, world: &mut World, character: usize) {
+        self.felt.add(world, character, self.platform.map(|platform| platform.prop));
+        let step_secs = world.settings().step_secs();
+        let ground = self.ground(world, step_secs);
+        if self.clock.is_due() {
+            self.clock.begin_frame();
+            self.begin_frame(ground.velocity);
+        }
+        let next = self.glide.at(self.clock.advance(step_secs));
+        self.hold.carry_to(&next, &ground, world, character);
+    }
+
+    fn begin_frame(&mut self, ground_velocity: DVec3) {
+        let frame_secs = self.clock.time_step_secs();
+        self.felt.take(frame_secs, &mut self.forces);
+        let mut acceleration = DVec3::ZERO;
+        if let Some(platform) = &mut self.platform {
+            acceleration = (ground_velocity - platform.frame_velocity) / frame_secs;
+            platform.frame_velocity = ground_velocity;
+        }
+        let mut pose = self.response.step_on_moving_ground(&self.wanted, &self.forces, acceleration);
+        // The world knows better where its platform is.
+        pose.hips_position -= self.response.deviation().ground_shift;
+        self.glide.next(&pose);
+    }
+
+    fn ground(&mut self, world: &World, step_secs: f64) -> GroundMotion {
+        let Some(platform) = &mut self.platform else { return GroundMotion::default() };
+        let Some(state) = world.frame().props.get(platform.prop) else { return GroundMotion::default() };
+        let acceleration = (state.velocity - platform.step_velocity) / step_secs;
+        platform.step_velocity = state.velocity;
+        GroundMotion { shift: state.position - platform.origin, velocity: state.velocity, acceleration }
+    }
+
+    /// The forces that the response was given last: the mean over the motion frame before.
+    pub fn forces(&self) -> &[PointForce] {
+        &self.forces
+    }
+
+    /// The pose that the body is held to at the end of this motion frame, on ground at rest.
+    pub fn pose(&self) -> &Pose {
+        self.glide.end()
+    }
+
+    /// The response, to see what it does.
+    pub fn response(&self) -> &Response {
+        &self.response
+    }
+
+    /// Lets all parts go.
+    pub fn release(&self, world: &mut World, character: usize) {
+        world.set_limp(character);
+    }
+}
