@@ -20,6 +20,9 @@ pub(super) struct Run {
     /// Change a value of the scene first, such as characters.left.pose_gain=2; may be repeated.
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
     set: Vec<(String, String)>,
+    /// Press a key of the scene at a time \[s\], such as b@1.5; may be repeated.
+    #[arg(long, value_name = "KEY@SECONDS", value_parser = press)]
+    press: Vec<(f64, String)>,
     /// Where to record the take, for `sinew replay`.
     #[arg(long, value_name = "T.take")]
     take: Option<PathBuf>,
@@ -62,6 +65,13 @@ fn assignment(text: &str) -> Result<(String, String), String> {
     Ok((path.trim().to_owned(), value.trim().to_owned()))
 }
 
+fn press(text: &str) -> Result<(f64, String), String> {
+    let usage = "write KEY@SECONDS, such as b@1.5";
+    let (key, secs) = text.rsplit_once('@').ok_or(usage)?;
+    let secs: f64 = secs.parse().map_err(|_| usage)?;
+    if secs.is_finite() && secs >= 0.0 { Ok((secs, key.to_owned())) } else { Err(usage.to_owned()) }
+}
+
 impl Run {
     pub(super) fn run(&self) -> Result<()> {
         self.out.check([&self.scene].into_iter(), self.take.iter())?;
@@ -70,7 +80,7 @@ impl Run {
             scene.set(path, value)?;
         }
         let bar = bar();
-        let job = RunJob { for_secs: self.for_secs, host: script_host() };
+        let job = RunJob { for_secs: self.for_secs, host: script_host(), presses: self.press.clone() };
         let for_picture = scene.clone();
         let ran = run(scene, &job, |done, of| show(&bar, done, of))?;
         bar.finish_and_clear();

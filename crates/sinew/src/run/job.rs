@@ -12,6 +12,8 @@ pub struct RunJob {
     pub for_secs: Option<f64>,
     /// How Python controllers are run; `None` refuses scenes that have any.
     pub host: Option<ScriptHost>,
+    /// Keys of the scene that are pressed, with the time of each \[s\].
+    pub presses: Vec<(f64, String)>,
 }
 
 /// A run: the report, the motion, the take.
@@ -36,6 +38,9 @@ pub enum RunError {
     /// A duration out of range.
     #[error("{0} s is out of range; give more than 0 and at most {MOST_SECS} s")]
     Duration(f64),
+    /// A key that the scene does not bind.
+    #[error("the scene has no key `{0}`; add [[keys]] with key = \"{0}\", or press another")]
+    Key(String),
 }
 
 /// The longest run \[s\].
@@ -66,7 +71,12 @@ pub fn run(scene: Scene, job: &RunJob, progress: impl FnMut(u64, u64)) -> Result
     let steps = (for_secs * f64::from(scene.stage.physics_hz)).round().max(1.0) as u64;
     let take = Take::of(&scene);
     let stage = Stage::new(scene, job.host.clone())?;
-    Ok(play(stage, steps, take, progress))
+    let mut presses = job.presses.clone();
+    presses.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    if let Some((_, key)) = presses.iter().find(|(_, key)| !stage.scene().keys.iter().any(|bound| bound.key == *key)) {
+        return Err(RunError::Key(key.clone()));
+    }
+    Ok(play(stage, steps, take, &presses, progress))
 }
 
 /// Plays a take again, with the commands at their steps. `sets` change values of the scene first, as `--set` does;
@@ -88,16 +98,26 @@ pub fn replay(
     let again = Take::of(&scene);
     let mut stage = Stage::new(scene, host)?;
     stage.prescribe(take.commands.clone());
-    Ok(play(stage, take.steps, again, progress))
+    Ok(play(stage, take.steps, again, &[], progress))
 }
 
-fn play(mut stage: Stage, steps: u64, mut take: Take, mut progress: impl FnMut(u64, u64)) -> Ran {
+fn play(
+    mut stage: Stage,
+    steps: u64,
+    mut take: Take,
+    presses: &[(f64, String)],
+    mut progress: impl FnMut(u64, u64),
+) -> Ran {
+    let mut presses = presses.iter().peekable();
     let mut recording = Recording::new(&stage);
     let mut report = RunReport::of(&stage);
     recording.push(&stage);
     let per_frame = u64::from(stage.scene().stage.steps_per_frame());
     let mut hashes = Vec::new();
     for step in 1..=steps {
+        while let Some((_, key)) = presses.next_if(|(secs, _)| *secs <= stage.frame().time_secs + 1e-9) {
+            stage.press(key);
+        }
         stage.step();
         report.watch(&stage);
         if step % per_frame == 0 {

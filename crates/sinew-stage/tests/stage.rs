@@ -1,0 +1,174 @@
+//! What a running stage does with commands, spans, touches and bad input.
+
+use glam::DVec3;
+use sinew_control::{Action, Command, Layer};
+use sinew_stage::{Scene, Stage};
+
+fn stage(text: &str) -> Stage {
+    Stage::new(Scene::from_text(&format!("format = 1\n{text}")).unwrap(), None).unwrap()
+}
+
+fn steps(stage: &mut Stage, count: usize) {
+    for _ in 0..count {
+        stage.step();
+    }
+}
+
+fn effects(stage: &Stage) -> Vec<(u64, String)> {
+    stage.events().list().iter().map(|event| (event.step, event.effect.clone())).collect()
+}
+
+const STANDING: &str = "[characters.one]\npose = \"stand\"\n";
+
+#[test]
+fn a_command_acts_in_the_step_that_follows_it_and_is_recorded_with_it() {
+    let mut stage = stage(STANDING);
+    steps(&mut stage, 7);
+    stage.command(Command::to(
+        "one",
+        Action::Push { on: "chest".to_owned(), force_n: [0.0, 0.0, 500.0], for_secs: 0.05, facing: false },
+    ));
+    let before = stage.frame().characters[0].centre_velocity.z;
+    stage.step();
+    // 500 N for 1/240 s on 80 kg.
+    let gained = stage.frame().characters[0].centre_velocity.z - before;
+    assert!((gained - 500.0 / 240.0 / 80.0).abs() < 0.01, "{gained}");
+    assert_eq!(stage.record().len(), 1);
+    assert_eq!(stage.record()[0].step, 7);
+    assert_eq!(effects(&stage)[0].0, 7);
+}
+
+#[test]
+fn what_lasts_for_a_time_ends_at_its_step() {
+    let mut stage = stage(&format!(
+        "{STANDING}[[at]]\ntime_secs = 0.1\ncharacter = \"one\"\ndo = \"gravity\"\nscale = 0.0\nfor_secs = 0.2\n"
+    ));
+    steps(&mut stage, 240);
+    let effects = effects(&stage);
+    assert_eq!(effects[0], (24, "one: gravity times 0".to_owned()));
+    assert_eq!(effects[1], (72, "one: gravity times 1".to_owned()));
+}
+
+#[test]
+fn a_touch_fires_once_or_again_after_its_pause() {
+    let ball = "[props.ball]\nball_radius_m = 0.1\nmass_kg = 1\nbounce = 0.9\nposition_m = [0, 0.5, 0]\n";
+    let when = "[[when]]\ntouching = [\"ball\", \"ground\"]\ndo = \"say\"\ntext = \"boing\"\n";
+    let mut once = stage(&format!("{ball}{when}"));
+    steps(&mut once, 960);
+    assert_eq!(effects(&once).len(), 1);
+    let mut again = stage(&format!("{ball}{when}repeat_after_secs = 0.05\n"));
+    steps(&mut again, 960);
+    assert!(effects(&again).len() >= 4, "{:?}", effects(&again));
+}
+
+#[test]
+fn switching_layers_off_and_on_does_not_jump() {
+    let mut stage = stage("[stage]\nmotion_hz = 60\n[characters.one]\npose = \"stand\"\nplane = true\n");
+    steps(&mut stage, 60);
+    let mut fastest = 0.0_f64;
+    for at in 0..240 {
+        if at % 40 == 0 {
+            let on = (at / 40) % 2 == 1;
+            stage.command(Command::to("one", Action::Layer { layer: Layer::Poses, on }));
+        }
+        let before = stage.frame().characters[0].pose();
+        stage.step();
+        let after = stage.frame().characters[0].pose();
+        for (one, other) in before.world.iter().zip(&after.world) {
+            fastest = fastest.max(one.angle_between(*other));
+        }
+    }
+    // A joint that jumped would turn by tens of degrees in a step; a fall turns limbs by at most some 15 rad/s.
+    assert!(fastest < 15.0 / 240.0, "{fastest}");
+}
+
+#[test]
+fn a_command_that_makes_no_sense_is_refused_in_words_and_the_stage_goes_on() {
+    let mut stage = stage(STANDING);
+    for action in [
+        Action::Pose { name: "nonsense".to_owned() },
+        Action::Push { on: "tail".to_owned(), force_n: [0.0; 3], for_secs: 1.0, facing: false },
+        Action::Push { on: "chest".to_owned(), force_n: [f64::NAN; 3], for_secs: 1.0, facing: false },
+        Action::Push { on: "chest".to_owned(), force_n: [1e300; 3], for_secs: f64::INFINITY, facing: false },
+        Action::Gravity { scale: f64::NAN, on: None, for_secs: None },
+        Action::Shape { part: "leftFoot".to_owned(), shape: "skis".to_owned(), for_secs: None },
+        Action::Attach { link: "leftHand".to_owned(), object: "moon".to_owned(), soft: false, break_n: None },
+        Action::Tracker { name: "magic".to_owned() },
+        Action::Graph { name: "walk".to_owned(), state: None },
+        Action::Controller { name: "Ghost".to_owned() },
+        Action::Reload { name: "Ghost".to_owned(), text: Some("x".to_owned()) },
+        Action::Ik { link: Some("head".to_owned()), target_m: [0.0; 3] },
+    ] {
+        let refused = stage.events().list().len();
+        stage.command(Command::to("one", action.clone()));
+        stage.step();
+        let event = &stage.events().list()[refused];
+        assert!(event.effect.starts_with("refused: "), "{action:?}: {}", event.effect);
+    }
+    stage.command(Command::to("nobody", Action::Say { text: "hm".to_owned() }));
+    stage.step();
+    assert!(stage.events().list().last().unwrap().effect.contains("no character `nobody`; there are one"));
+    assert!(stage.frame().characters[0].pose().is_finite());
+}
+
+#[test]
+fn equal_scenes_and_commands_give_equal_bits_at_every_step() {
+    let text = format!("{STANDING}[props.ball]\nball_radius_m = 0.1\nmass_kg = 3\nposition_m = [0, 1.3, 1]\nvelocity_m_s = [0, 0, -6]\n");
+    let run = || {
+        let mut stage = stage(&text);
+        let mut hashes = Vec::new();
+        for step in 0..300 {
+            if step == 100 {
+                stage.command(Command::to("one", Action::Gain { factor: 0.5, part: None }));
+            }
+            stage.step();
+            hashes.push(stage.hash());
+        }
+        hashes
+    };
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn absurd_gains_and_forces_never_leave_a_frame_that_is_not_finite() {
+    let mut stage = stage("[characters.one]\npose_gain = 1000\n[characters.one.joints.leftHand]\nfrequency_hz = 100\n");
+    for round in 0..40 {
+        let force_n = [if round % 2 == 0 { 1e9 } else { -1e9 }, 1e9, 0.0];
+        stage.command(Command::to(
+            "one",
+            Action::Push { on: "leftHand".to_owned(), force_n, for_secs: 0.01, facing: false },
+        ));
+        stage.command(Command::to("one", Action::Gain { factor: 1e12, part: None }));
+        for _ in 0..12 {
+            stage.step();
+            let character = &stage.frame().characters[0];
+            assert!(character.pose().is_finite());
+            assert!(character.parts.iter().all(|part| part.position.abs().max_element() < 1e4));
+        }
+    }
+}
+
+#[test]
+fn a_held_ball_stays_in_the_hand_until_it_is_let_go() {
+    let mut stage = stage(&format!(
+        "{STANDING}[props.ball]\nball_radius_m = 0.05\nmass_kg = 0.5\nposition_m = [-0.2, 0.75, 0.1]\n"
+    ));
+    stage.command(Command::to(
+        "one",
+        Action::Attach { link: "rightHand".to_owned(), object: "ball".to_owned(), soft: false, break_n: None },
+    ));
+    stage.step();
+    let hand = |stage: &Stage| stage.frame().characters[0].part(sinew_body::humanoid::Node::RightHand).centre;
+    let apart = |stage: &Stage| (hand(stage) - stage.frame().props[0].position).length();
+    let before = apart(&stage);
+    steps(&mut stage, 120);
+    // Rigid but for the solver's error.
+    assert!((apart(&stage) - before).abs() < 2e-3, "{} {before}", apart(&stage));
+    stage.command(Command::to(
+        "one",
+        Action::Detach { link: "rightHand".to_owned(), object: "ball".to_owned() },
+    ));
+    steps(&mut stage, 200);
+    assert!(stage.frame().props[0].position.y < 0.1);
+    assert!(stage.frame().props[0].position.distance(DVec3::ZERO) < 3.0);
+}
