@@ -4,10 +4,14 @@ use crate::command::{self, cargo, output};
 use crate::{readme, repository};
 
 /// Crates that others use alone, and the crates that these must not bring along.
-const ALONE: [(&str, &[&str]); 4] = [
+const ALONE: [(&str, &[&str]); 8] = [
     ("sinew-motion", &["ufbx", "serde_json", "base64"]),
     ("sinew-body", &["ufbx", "serde_json", "base64"]),
     ("sinew-response", &["ufbx", "serde_json", "base64", "clap", "tiny-skia"]),
+    ("sinew-world", &["ufbx", "clap", "tiny-skia", "rustpython-vm", "toml"]),
+    ("sinew-control", &["ufbx", "clap", "tiny-skia", "rustpython-vm"]),
+    ("sinew-script", &["rustpython-vm", "sinew-stage", "clap"]),
+    ("sinew-stage", &["rustpython-vm", "clap", "tiny-skia"]),
     ("sinew-picture", &["sinew-motion", "sinew-body"]),
 ];
 
