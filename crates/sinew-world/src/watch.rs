@@ -128,7 +128,8 @@ impl World {
                     None => *collider.position(),
                 };
                 for point in &manifold.points {
-                    if point.dist > NEAR_M {
+                    // What arrives fast is stopped in the step before it touches: its push counts, wherever it begins.
+                    if point.dist > NEAR_M && point.data.impulse <= 0.0 {
                         continue;
                     }
                     let world = place.transform_point(point.local_p1);
@@ -243,7 +244,7 @@ impl World {
     }
 }
 
-/// Points farther apart than this do not touch \[m\].
+/// Points farther apart than this, and that do not push each other, do not touch \[m\].
 const NEAR_M: f64 = 0.004;
 
 impl CharacterFrame {
