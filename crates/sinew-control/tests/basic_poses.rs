@@ -28,8 +28,21 @@ fn on_the_ground(pose: &KeyPose) -> Pose {
 fn the_shipped_poses_lie_within_the_limits_of_a_human() {
     let poses = shipped();
     for name in [
-        "stand", "ready", "guard", "reach_up", "PrepareDunk", "Landing", "punch_right_back", "punch_right", "kick_right_up",
-        "kick_right", "crouch", "hop_push", "hop_tuck", "lean_back", "pick_up_reach",
+        "stand",
+        "ready",
+        "guard",
+        "reach_up",
+        "PrepareDunk",
+        "Landing",
+        "punch_right_back",
+        "punch_right",
+        "kick_right_up",
+        "kick_right",
+        "crouch",
+        "hop_push",
+        "hop_tuck",
+        "lean_back",
+        "pick_up_reach",
     ] {
         assert!(poses.contains_key(name), "{name}");
     }
@@ -38,7 +51,18 @@ fn the_shipped_poses_lie_within_the_limits_of_a_human() {
 #[test]
 fn poses_on_two_feet_have_their_weight_over_them() {
     let (poses, body) = (shipped(), Body::standard(80.0, 1.7));
-    for name in ["stand", "ready", "guard", "reach_up", "Landing", "punch_right_back", "punch_right", "crouch", "lean_back", "pick_up_reach"] {
+    for name in [
+        "stand",
+        "ready",
+        "guard",
+        "reach_up",
+        "Landing",
+        "punch_right_back",
+        "punch_right",
+        "crouch",
+        "lean_back",
+        "pick_up_reach",
+    ] {
         let pose = on_the_ground(&poses[name]);
         let ahead = body.centre_of_mass(&pose).z - pose.positions(&body)[Node::LeftFoot.index()].z;
         // Ahead of the ankle; the sole reaches from 7 cm behind it to 18 cm before it.

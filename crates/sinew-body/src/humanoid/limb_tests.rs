@@ -1,3 +1,5 @@
+#![allow(clippy::disallowed_methods, reason = "tests may use the platform's mathematics")]
+
 use super::*;
 use crate::humanoid::Pose;
 

@@ -40,6 +40,8 @@ pub(super) struct Way {
     pub(super) touching: Option<(Thing, Thing)>,
     pub(super) sensor: Option<Sensor>,
     pub(super) signal: Option<String>,
+    /// Its conditions in words, for the report.
+    pub(super) words: String,
 }
 
 impl Graph {
@@ -117,7 +119,36 @@ fn resolve_way(way: &TransitionSpec, to: usize, place: &str, names: &dyn Names) 
         Some(sensor) => Some(resolve_sensor(sensor, place, thing)?),
         None => None,
     };
-    Ok(Way { to, after_secs: way.after_secs, touching, sensor, signal: way.signal.clone() })
+    let words = words_of(way);
+    Ok(Way { to, after_secs: way.after_secs, touching, sensor, signal: way.signal.clone(), words })
+}
+
+/// "after 0.1 s, rightFoot touches ground".
+fn words_of(way: &TransitionSpec) -> String {
+    let mut words = Vec::new();
+    if let Some(secs) = way.after_secs {
+        words.push(format!("after {secs} s"));
+    }
+    if let Some([one, other]) = &way.touching {
+        words.push(format!("{} touches {}", short(one), short(other)));
+    }
+    if let Some(sensor) = &way.sensor {
+        let mut said = format!("{} of {}", sensor.is.name(), short(&sensor.of));
+        if let Some(to) = &sensor.to {
+            said += &format!(" to {}", short(to));
+        }
+        if let Some(below) = sensor.below {
+            said += &format!(" below {below}");
+        }
+        if let Some(above) = sensor.above {
+            said += &format!(" above {above}");
+        }
+        words.push(said);
+    }
+    if let Some(signal) = &way.signal {
+        words.push(format!("signal {}", short(signal)));
+    }
+    words.join(", ")
 }
 
 fn resolve_sensor(

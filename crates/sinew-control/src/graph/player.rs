@@ -22,6 +22,8 @@ pub struct Transition {
     pub from: usize,
     /// Place of the state that begins.
     pub to: usize,
+    /// Which of the ways out of `from` was taken, in the order of the file.
+    pub way: usize,
     /// Time that the state lasted \[s\].
     pub lasted_secs: f64,
     /// What made it so.
@@ -91,7 +93,7 @@ impl GraphPlayer {
         signals: &[impl AsRef<str>],
     ) -> Option<Transition> {
         self.steps += 1;
-        for way in &graph.states.get(self.state)?.ways {
+        for (index, way) in graph.states.get(self.state)?.ways.iter().enumerate() {
             let mut cause = Cause::Timer;
             if let Some(after_secs) = way.after_secs {
                 // Whole steps: the one whose end comes nearest to the time.
@@ -117,7 +119,8 @@ impl GraphPlayer {
                     None => continue,
                 }
             }
-            let transition = Transition { from: self.state, to: way.to, lasted_secs: self.lasted_secs(), cause };
+            let transition =
+                Transition { from: self.state, to: way.to, way: index, lasted_secs: self.lasted_secs(), cause };
             (self.state, self.steps) = (way.to, 0);
             return Some(transition);
         }
@@ -129,6 +132,14 @@ impl Transition {
     /// The names of the two states.
     pub fn names<'a>(&self, graph: &'a Graph) -> (&'a str, &'a str) {
         (&graph.states[self.from].name, &graph.states[self.to].name)
+    }
+
+    /// A line for the report: `up to down after 0.300 s (rightFoot touches ground): rightFoot of character 0 touched the
+    /// ground with 3.10 N s`.
+    pub fn text(&self, graph: &Graph) -> String {
+        let (from, to) = self.names(graph);
+        let words = graph.states[self.from].ways.get(self.way).map_or("", |way| way.words.as_str());
+        format!("{from} to {to} after {:.3} s ({words}): {}", self.lasted_secs, self.cause)
     }
 }
 

@@ -107,6 +107,22 @@ pub enum Quantity {
     ComMarginM,
 }
 
+impl Quantity {
+    /// As files write it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Quantity::HeightM => "height_m",
+            Quantity::SpeedMS => "speed_m_s",
+            Quantity::ForwardMS => "forward_m_s",
+            Quantity::UpMS => "up_m_s",
+            Quantity::TiltDeg => "tilt_deg",
+            Quantity::LoadN => "load_n",
+            Quantity::DistanceM => "distance_m",
+            Quantity::ComMarginM => "com_margin_m",
+        }
+    }
+}
+
 /// Balance feedback in the manner of Yin, Loken and van de Panne 2007: the wanted turn of a joint changes by
 /// `rad_per_m`·d + `rad_per_m_s`·v, where d is how far the centre of mass lies from the part `from` and v its velocity, both
 /// along the facing (axis x) or to the left (axis z).

@@ -2,8 +2,8 @@
 
 use super::{FullJointSpec, JointSpec, PartName, PoseSpec};
 use crate::Target;
-use glam::{DMat3, DQuat};
-use sinew_body::humanoid::{Node, log};
+use glam::{DMat3, DQuat, DVec3};
+use sinew_body::humanoid::{Node, exp, log};
 use std::collections::BTreeMap;
 
 /// A wanted turn of every joint but the root's, with gains.
@@ -48,16 +48,17 @@ impl KeyPose {
 
     /// The pose as a file states it, on `stand`: what an IK handle has found can be saved.
     pub fn to_spec(&self) -> PoseSpec {
+        let (gain, damping) = (common(&self.gains), common(&self.dampings));
         let mut joints = BTreeMap::new();
         for node in Node::ALL.into_iter().skip(1) {
             let at = node.index();
             // Below a millionth of a degree it is rounding.
             let turned = log(self.rotations[at]).length() > 2e-8;
-            let own = |factor: f64| (factor != 1.0).then_some(factor);
+            let own = |factor: f64, common: f64| (factor != common).then_some(factor);
             let spec = FullJointSpec {
                 turn_deg: turned.then(|| angles_deg(self.rotations[at])),
-                gain: own(self.gains[at]),
-                damping: own(self.dampings[at]),
+                gain: own(self.gains[at], gain),
+                damping: own(self.dampings[at], damping),
             };
             let spec = match spec {
                 FullJointSpec { turn_deg: None, gain: None, damping: None } => continue,
@@ -68,11 +69,19 @@ impl KeyPose {
         }
         PoseSpec {
             blend_secs: Some(self.blend_secs),
+            gain: (gain != 1.0).then_some(gain),
+            damping: (damping != 1.0).then_some(damping),
             follow_velocity: self.follow_velocity.then_some(true),
             joints,
             ..PoseSpec::default()
         }
     }
+}
+
+/// The factor of all joints, if they have one; else 1, on which each states its own.
+fn common(factors: &[f64; Node::COUNT]) -> f64 {
+    let first = factors[1];
+    if factors[1..].iter().all(|factor| *factor == first) { first } else { 1.0 }
 }
 
 /// The angles \[degrees\] about X, Y and Z whose X·Y·Z is the rotation. Where Y is a quarter turn, X and Z turn about one axis
@@ -93,8 +102,6 @@ pub fn angles_deg(rotation: DQuat) -> [f64; 3] {
 
 /// The rotation X·Y·Z of three angles \[degrees\].
 pub fn rotation_of(degrees: [f64; 3]) -> DQuat {
-    use glam::DVec3;
-    use sinew_body::humanoid::exp;
     let [x, y, z] = degrees.map(f64::to_radians);
     (exp(DVec3::X * x) * exp(DVec3::Y * y) * exp(DVec3::Z * z)).normalize()
 }
