@@ -3,13 +3,13 @@
 use crate::motion_source::MotionSource;
 use crate::scene::TrackerKind;
 use crate::scripts::Running;
-use glam::DVec3;
-use sinew_body::humanoid::{Body, Limb, Node};
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Limb, Node, Pose};
 use sinew_control::graph::{Cause, Graph, GraphPlayer};
 use sinew_control::ik::Reach;
 use sinew_control::pose::{KeyPose, PosePlayer};
 use sinew_control::reflex::{Reflex, Sense};
-use sinew_control::tracker::{JointGain, PdTracker};
+use sinew_control::tracker::{JointGain, KinematicTracker, PdTracker, ResponseTracker};
 use sinew_control::{Layer, Target};
 use sinew_world::World;
 use std::collections::BTreeMap;
@@ -29,6 +29,10 @@ pub struct Actor {
     layers: [bool; 3],
     pub(crate) tracker: TrackerKind,
     pub(crate) pd: PdTracker,
+    pub(crate) kinematic: Option<KinematicTracker>,
+    pub(crate) response: Option<ResponseTracker>,
+    /// Where the hips stay when no source moves them: position and `world_from_hips`.
+    pub(crate) stand: (DVec3, DQuat),
     pub(crate) motion: Option<MotionSource>,
     pub(crate) script: Option<Running>,
     target: Target,
@@ -62,6 +66,9 @@ impl Actor {
             reflexes: Vec::new(),
             layers: [true; 3],
             tracker: TrackerKind::Pd,
+            kinematic: None,
+            response: None,
+            stand: (DVec3::ZERO, DQuat::IDENTITY),
             motion: None,
             script: None,
             target: Target::STANDING,
@@ -194,6 +201,21 @@ impl Actor {
         if let Some(character) = world.frame().characters.get(self.index) {
             self.player.take_over(character);
         }
+    }
+
+    /// The body.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The whole pose that is wanted at a time \[s\]: of the clip, or of the target with the hips where they stand.
+    pub(crate) fn wanted_pose(&self, time_secs: f64) -> Pose {
+        if let Some(motion) = &self.motion {
+            return motion.pose_at(time_secs);
+        }
+        let mut locals = self.target.joints.map(|joint| joint.rotation);
+        locals[0] = self.stand.1;
+        Pose::from_locals(self.stand.0, &locals)
     }
 
     /// Decides what is wanted at the end of the next step. Returns what the graph did, if it did something: cause and effect.

@@ -3,7 +3,7 @@
 use crate::Stage;
 use crate::actor::Actor;
 use crate::cast::Cast;
-use crate::motion_source::{self, MotionSource};
+use crate::motion_source::{self, MotionSource, Play};
 use crate::obey::heading;
 use crate::scene::{CharacterSpec, Scene, SourceSpec, TrackerKind};
 use glam::DVec3;
@@ -138,10 +138,13 @@ fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
         file,
         reduction,
         spec,
-        f64::from(scene.stage.motion_hz),
-        source.and_then(|source| source.start_secs).unwrap_or(0.0),
-        source.and_then(|source| source.repeat).unwrap_or(true),
-        scene.stage.duration_secs,
+        &Play {
+            hz: f64::from(scene.stage.motion_hz),
+            start_secs: source.and_then(|source| source.start_secs).unwrap_or(0.0),
+            repeats: source.and_then(|source| source.repeat).unwrap_or(true),
+            until_secs: scene.stage.duration_secs,
+            is_filtered: spec.tracker == TrackerKind::Response,
+        },
     )?;
     for pose in motion.poses() {
         body.widen_limits(pose);

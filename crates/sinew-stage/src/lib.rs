@@ -3,6 +3,7 @@
 //! [`scene`] reads the file, [`Stage`] runs it, [`take`] records what happened to it, [`Recording`] keeps what it showed.
 
 mod actor;
+mod basis;
 mod build;
 mod cast;
 mod event;

@@ -7,6 +7,7 @@ use sinew_body::humanoid::{Node, Person, Pose, Reduction, log};
 use sinew_control::Target;
 use sinew_motion::formats::{MotionFile, ReadOptions};
 use sinew_motion::{find_cycle, repeat, resample};
+use sinew_response::{Motion, Settings};
 
 /// Poses at a constant rate, placed on the stage.
 #[derive(Clone, Debug)]
@@ -37,18 +38,30 @@ pub(crate) fn reduction(file: &MotionFile, spec: &CharacterSpec) -> Result<Reduc
     Reduction::new(&file.clip, humanoid, file.stature_m, person).map_err(|error| error.to_string())
 }
 
+/// How a clip is played.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Play {
+    /// Poses a second \[Hz\].
+    pub hz: f64,
+    /// Where in the clip the stage's time begins \[s\].
+    pub start_secs: f64,
+    /// The gait cycle, where there is one, is repeated.
+    pub repeats: bool,
+    /// For how long poses are needed \[s\].
+    pub until_secs: f64,
+    /// Low-passed, as the response needs it to know the motion's torques.
+    pub is_filtered: bool,
+}
+
 impl MotionSource {
-    /// A clip's poses at the scene's motion rate, moved so that at `start_secs` the hips are over the character's place and
-    /// face where it faces. Its gait cycle, or else the whole clip, is repeated until `until_secs` when `repeats`.
+    /// A clip's poses, moved so that at the start the hips are over the character's place and face where it faces.
     pub(crate) fn of(
         file: &MotionFile,
         reduction: &Reduction,
         spec: &CharacterSpec,
-        hz: f64,
-        start_secs: f64,
-        repeats: bool,
-        until_secs: f64,
+        play: &Play,
     ) -> Result<MotionSource, String> {
+        let Play { hz, start_secs, repeats, until_secs, is_filtered } = *play;
         let humanoid = file.body_parts().map_err(|error| error.to_string())?;
         let wanted = (((start_secs + until_secs) * hz).ceil() as usize + 2).min(MOST_FRAMES);
         let clip = resample(&file.clip, hz);
@@ -59,8 +72,13 @@ impl MotionSource {
             }
             None => clip,
         };
-        let mut poses: Vec<Pose> =
-            (0..clip.frames().min(wanted)).map(|frame| reduction.pose(&clip.world(frame))).collect();
+        let mut poses: Vec<Pose> = if is_filtered {
+            let settings = Settings { time_step_secs: 1.0 / hz, ..Settings::default() };
+            Motion::of_clip(&clip, reduction, 0, &settings).poses().to_vec()
+        } else {
+            (0..clip.frames()).map(|frame| reduction.pose(&clip.world(frame))).collect()
+        };
+        poses.truncate(wanted);
         let first = ((start_secs * hz).round() as usize).min(poses.len().saturating_sub(1));
         let Some(start) = poses.get(first).copied() else { return Err("the clip has no frames".to_owned()) };
         let forward = start.world[0] * DVec3::Z;

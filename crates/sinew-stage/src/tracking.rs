@@ -1,9 +1,11 @@
 //! From what actors want to what their bodies do.
 
 use crate::Stage;
+use crate::basis::basis_for;
 use crate::scene::TrackerKind;
-use sinew_body::humanoid::{Node, Pose};
+use sinew_body::humanoid::Node;
 use sinew_control::graph::Cause;
+use sinew_control::tracker::{KinematicTracker, ResponseTracker};
 
 impl Stage {
     /// Every actor decides, and its tracker tells the world.
@@ -29,39 +31,67 @@ impl Stage {
     }
 
     fn track(&mut self, index: usize) {
-        let actor = &self.actors[index];
+        let frame_end = self.world.frame().time_secs + self.frame_secs();
+        let actor = &mut self.actors[index];
         match actor.tracker {
             TrackerKind::Pd => actor.pd.apply(&mut self.world, index, actor.target()),
             TrackerKind::Kinematic => {
-                let target = actor.target();
-                let frame = &self.world.frame().characters[index];
-                let mut locals = target.joints.map(|joint| joint.rotation);
-                let (hips, rotation) = target.root.unwrap_or((frame.parts[0].position, frame.parts[0].rotation));
-                locals[0] = rotation;
-                let pose = Pose::from_locals(hips, &locals);
-                let Some(body) = self.world.body(index) else { return };
-                let positions = pose.positions(body);
-                for node in Node::ALL {
-                    self.world.move_part(index, node, positions[node.index()], pose.world[node.index()]);
+                let wanted = actor.wanted_pose(frame_end);
+                let Some(tracker) = &mut actor.kinematic else { return };
+                if tracker.wants_pose() {
+                    tracker.wanted(&wanted);
                 }
+                tracker.physics_step(&mut self.world, index);
             }
-            TrackerKind::Response | TrackerKind::None => {}
+            TrackerKind::Response => {
+                let wanted = actor.wanted_pose(frame_end);
+                let Some(tracker) = &mut actor.response else { return };
+                if tracker.wants_pose() {
+                    tracker.wanted(&wanted);
+                }
+                tracker.physics_step(&mut self.world, index);
+            }
+            TrackerKind::None => {}
         }
     }
 
+    fn frame_secs(&self) -> f64 {
+        1.0 / f64::from(self.scene.stage.motion_hz)
+    }
+
     /// Follows with another tracker from the next step on, from where the body is now.
+    ///
+    /// # Errors
+    /// When the response finds no coordinates in the motion.
     pub(crate) fn set_tracker(&mut self, index: usize, kind: TrackerKind) -> Result<(), String> {
-        let before = self.actors[index].tracker;
-        if before == TrackerKind::Kinematic && kind != before {
-            for node in Node::ALL {
-                self.world.set_forces(index, node, true);
+        let frame = &self.world.frame().characters[index];
+        let (now, frame_secs) = (frame.pose(), self.frame_secs());
+        let Some(spec) = self.scene.characters.values().nth(index) else { return Ok(()) };
+        let actor = &mut self.actors[index];
+        // What it begins with first: when that fails, all stays as it was.
+        let response = match kind {
+            TrackerKind::Response => {
+                let (basis, settings) = basis_for(spec, actor.body(), actor.motion.as_ref(), frame_secs)?;
+                let mut tracker = ResponseTracker::new(actor.body().clone(), basis, settings, &now);
+                let prop = |name: &String| self.cast.prop(name).ok_or_else(|| format!("no prop `{name}`"));
+                let stands_on = spec.response.stands_on.as_ref().map(prop).transpose()?;
+                tracker.stand_on(&self.world, stands_on);
+                Some(tracker)
             }
+            _ => None,
+        };
+        match actor.tracker {
+            TrackerKind::Kinematic => (0..Node::COUNT).for_each(|at| self.world.set_forces(index, Node::ALL[at], true)),
+            TrackerKind::Response => self.world.set_limp(index),
+            TrackerKind::Pd | TrackerKind::None => {}
         }
-        if kind == TrackerKind::None || kind == TrackerKind::Response {
-            self.world.set_limp(index);
-        }
-        if kind != before && kind == TrackerKind::Pd {
-            self.actors[index].take_over(&self.world);
+        actor.kinematic = (kind == TrackerKind::Kinematic).then(|| KinematicTracker::new(frame_secs, &now));
+        actor.response = response;
+        actor.stand = (now.hips_position, now.world[0]);
+        match kind {
+            TrackerKind::None => self.world.set_limp(index),
+            TrackerKind::Pd => self.actors[index].take_over(&self.world),
+            TrackerKind::Kinematic | TrackerKind::Response => {}
         }
         self.actors[index].tracker = kind;
         Ok(())

@@ -1,6 +1,6 @@
 //! Characters of a scene.
 
-use super::SourceSpec;
+use super::{ResponseSpec, SourceSpec};
 use super::error::{Fault, known, shortened};
 use super::range::{colour, count, name as known_name, number, optional, rgb, vector};
 use schemars::JsonSchema;
@@ -30,6 +30,8 @@ pub struct CharacterSpec {
     pub pose: Option<String>,
     /// How the body follows the wanted pose.
     pub tracker: TrackerKind,
+    /// Settings of the tracker `response`.
+    pub response: ResponseSpec,
     /// Where the wanted pose comes from; the start's pose when left out.
     pub source: Option<SourceSpec>,
     /// A Python controller to start with.
@@ -134,6 +136,7 @@ impl Default for CharacterSpec {
             velocity_m_s: [0.0; 3],
             pose: None,
             tracker: TrackerKind::default(),
+            response: ResponseSpec::default(),
             source: None,
             controller: None,
             reflexes: Vec::new(),
@@ -200,6 +203,7 @@ impl CharacterSpec {
                 "degrees are expected",
             )?;
         }
+        self.response.check(name)?;
         if let Some(source) = &self.source {
             source.check(name)?;
         }

@@ -4,11 +4,14 @@ use super::export::capsules;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_picture::{Camera, Capsule, Colour, Figure, Filmstrip, Panel, Shade, Sheet, Style};
-use sinew_stage::{Recording, Scene};
-use sinew_world::part_solid;
+use sinew_stage::{RecordedCharacter, Recording, Scene};
+use sinew_world::{PartShape, part_solid};
 
 /// Panels of a strip when the scene does not say which.
 const PANELS: usize = 12;
+
+/// Props farther than this from every character are left out, or a ball that rolls away would make all else small \[m\].
+const NEAR_M: f64 = 3.0;
 
 /// What a character looks like in a pose: its collision shapes. With a colour the trunk has it.
 pub fn figure(body: &Body, pose: &Pose, rgb: Option<[u8; 3]>) -> Vec<Capsule> {
@@ -35,6 +38,20 @@ pub fn figure(body: &Body, pose: &Pose, rgb: Option<[u8; 3]>) -> Vec<Capsule> {
                 link.to_radius_m,
                 shade,
             ));
+        }
+    }
+    all
+}
+
+/// Shapes that parts have in place of their own, such as skis.
+fn worn(character: &RecordedCharacter, pose: &Pose, frame: usize) -> Vec<Capsule> {
+    let positions = pose.positions(&character.body);
+    let mut all = Vec::new();
+    for node in Node::ALL {
+        let PartShape::Other(solid) = character.shape(node, frame) else { continue };
+        let (position, rotation) = (positions[node.index()], pose.world[node.index()]);
+        for (from, to, radius) in capsules(solid) {
+            all.push(Capsule::new(position + rotation * from, position + rotation * to, radius, Shade::Object));
         }
     }
     all
@@ -81,9 +98,17 @@ fn panel(recording: &Recording, frame: usize) -> Panel {
         let pose = &character.poses[frame];
         middle += pose.hips_position / recording.characters.len() as f64;
         all.extend(figure(&character.body, pose, character.rgb));
+        all.extend(worn(character, pose, frame));
     }
+    let is_near = |place: DVec3| {
+        recording.characters.is_empty()
+            || recording.characters.iter().any(|character| character.poses[frame].hips_position.distance(place) < NEAR_M)
+    };
     for prop in recording.props.iter().filter(|prop| !prop.is_sensor) {
         let (position, rotation): (DVec3, DQuat) = prop.places[frame];
+        if !is_near(position) {
+            continue;
+        }
         let shade = prop.rgb.map_or(Shade::Object, custom);
         for (from, to, radius) in capsules(&prop.solid) {
             all.push(Capsule::new(position + rotation * from, position + rotation * to, radius, shade));
