@@ -157,7 +157,8 @@ impl Stage {
                         })?)
                     }
                 };
-                self.world.set_shape(character, node, solid).map_err(|error| error.to_string())?;
+                self.world.set_shape(character, node, solid.clone()).map_err(|error| error.to_string())?;
+                self.note_shape(character, node, solid);
                 self.spans.end_at(until, Ending::Shape(character, node));
                 format!("{who}'s {} has the shape {shape}", node.part())
             }
@@ -256,6 +257,7 @@ impl Stage {
             Ending::Shape(character, node) => {
                 // The body's own shape is one.
                 let _ = self.world.set_shape(*character, *node, PartShape::Own);
+                self.shapes.remove(&(*character, *node));
                 format!("{}'s {} has its own shape", who(*character), node.part())
             }
             Ending::Acceleration(prop) => {
@@ -264,6 +266,14 @@ impl Stage {
             }
         };
         self.note("its time is over", effect);
+    }
+
+    fn note_shape(&mut self, character: usize, node: Node, shape: PartShape) {
+        if shape == PartShape::Own {
+            self.shapes.remove(&(character, node));
+        } else {
+            self.shapes.insert((character, node), shape);
+        }
     }
 
     fn start_push(&mut self, on: Entity, force: DVec3, for_secs: f64) -> Result<(), String> {

@@ -2,8 +2,8 @@
 
 use crate::Stage;
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Pose};
-use sinew_world::Solid;
+use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_world::{PartShape, Solid};
 
 /// A run at the motion rate.
 #[derive(Clone, Debug, Default)]
@@ -29,6 +29,8 @@ pub struct RecordedCharacter {
     pub rgb: Option<[u8; 3]>,
     /// Its pose in every frame.
     pub poses: Vec<Pose>,
+    /// Changes of a part's shape, with the first frame that shows each.
+    pub shapes: Vec<(usize, Node, PartShape)>,
 }
 
 /// A prop's motion.
@@ -53,7 +55,7 @@ impl Recording {
         let world = stage.world();
         let characters = scene.characters.iter().enumerate().filter_map(|(index, (name, spec))| {
             let body = world.body(index)?.clone();
-            Some(RecordedCharacter { name: name.clone(), body, rgb: spec.rgb(), poses: Vec::new() })
+            Some(RecordedCharacter { name: name.clone(), body, rgb: spec.rgb(), poses: Vec::new(), shapes: Vec::new() })
         });
         let props = scene.props.iter().filter_map(|(name, spec)| {
             let solid = spec.solid()?;
@@ -73,6 +75,14 @@ impl Recording {
         for (character, seen) in self.characters.iter_mut().zip(&frame.characters) {
             character.poses.push(seen.pose());
         }
+        for (index, character) in self.characters.iter_mut().enumerate() {
+            for node in Node::ALL {
+                let shape = stage.shape_in_place_of_own(index, node).unwrap_or(&PartShape::Own);
+                if character.shape(node, self.frames) != shape {
+                    character.shapes.push((self.frames, node, shape.clone()));
+                }
+            }
+        }
         for (prop, seen) in self.props.iter_mut().zip(&frame.props) {
             prop.places.push((seen.position, seen.rotation));
         }
@@ -82,5 +92,14 @@ impl Recording {
     /// Time of a frame \[s\].
     pub fn time_secs(&self, frame: usize) -> f64 {
         frame as f64 / self.motion_hz
+    }
+}
+
+impl RecordedCharacter {
+    /// The collision shape that a part has in a frame.
+    pub fn shape(&self, node: Node, frame: usize) -> &PartShape {
+        let changes = self.shapes.iter().rev();
+        let mut known = changes.filter(|(from, part, _)| *part == node && *from <= frame);
+        known.next().map_or(&PartShape::Own, |(.., shape)| shape)
     }
 }

@@ -11,9 +11,11 @@ use crate::reaction::Reactions;
 use crate::scene::Scene;
 use crate::span::Spans;
 use crate::take::Stamped;
+use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command};
 use sinew_script::ScriptHost;
-use sinew_world::{Frame, World};
+use sinew_world::{Frame, PartShape, World};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A scene that runs.
@@ -23,6 +25,8 @@ pub struct Stage {
     pub(crate) world: World,
     pub(crate) actors: Vec<Actor>,
     pub(crate) spans: Spans,
+    /// Shapes that parts have in place of their own.
+    pub(crate) shapes: BTreeMap<(usize, Node), PartShape>,
     pub(crate) events: Events,
     pub(crate) host: Option<ScriptHost>,
     /// Commands that came from outside, with the steps in which they were obeyed.
@@ -75,6 +79,7 @@ impl Stage {
             world,
             actors,
             spans: Spans::default(),
+            shapes: BTreeMap::new(),
             events: Events::default(),
             host,
             record: Vec::new(),
@@ -146,6 +151,11 @@ impl Stage {
     /// The world, to look at.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// The shape that a command has given to a part of a character in place of its own.
+    pub fn shape_in_place_of_own(&self, character: usize, node: Node) -> Option<&PartShape> {
+        self.shapes.get(&(character, node))
     }
 
     /// The scene that it was made from.
