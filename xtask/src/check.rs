@@ -1,7 +1,7 @@
 //! Everything that must hold before a change goes in.
 
 use crate::command::{self, cargo, output};
-use crate::{readme, repository};
+use crate::{golden, readme, repository};
 
 /// Crates that others use alone, and the crates that these must not bring along.
 const ALONE: [(&str, &[&str]); 8] = [
@@ -31,6 +31,7 @@ pub fn run() -> Result<(), String> {
     let docs = ["doc", "--workspace", "--all-features", "--no-deps"];
     command::run(cargo(&root, &docs).env("RUSTDOCFLAGS", "-D warnings"))?;
     readme::run()?;
+    golden::run()?;
     tests()
 }
 

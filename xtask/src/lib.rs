@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod command;
+pub mod golden;
 pub mod page;
 pub mod readme;
 pub mod repository;

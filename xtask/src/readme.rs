@@ -36,9 +36,29 @@ pub fn run() -> Result<(), String> {
     for clip in CLIPS {
         fs::copy(folder.0.join("out/pushed.bvh"), folder.0.join(clip)).map_err(|error| error.to_string())?;
     }
+    // The examples name the shipped scenes, which name the samples.
+    for name in ["scenes", "samples"] {
+        copy_folder(&repository::root().join(name), &folder.0.join(name))?;
+    }
     for line in lines.iter().filter_map(|line| line.strip_prefix("sinew ")) {
         let arguments: Vec<&str> = ["--release", "--"].into_iter().chain(line.split_whitespace()).collect();
         run_here(&folder.0, &arguments)?;
+    }
+    Ok(())
+}
+
+/// Copies a folder with all that is in it.
+fn copy_folder(from: &Path, to: &Path) -> Result<(), String> {
+    let io = |error: std::io::Error| format!("{}: {error}", from.display());
+    fs::create_dir_all(to).map_err(io)?;
+    for entry in fs::read_dir(from).map_err(io)? {
+        let entry = entry.map_err(io)?;
+        let (from, to) = (entry.path(), to.join(entry.file_name()));
+        if from.is_dir() {
+            copy_folder(&from, &to)?;
+        } else {
+            fs::copy(&from, &to).map_err(io)?;
+        }
     }
     Ok(())
 }
