@@ -40,3 +40,16 @@ fn seconds(secs: f64) -> Duration {
     let secs = if secs.is_finite() { secs.clamp(1e-3, 86_400.0) } else { 86_400.0 };
     Duration::from_secs_f64(secs)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_that_are_no_times_become_some() {
+        for secs in [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e300] {
+            let limits = Limits { step_secs: secs, startup_secs: secs, ..Limits::default() };
+            assert!(limits.step() >= Duration::from_millis(1) && limits.startup() <= Duration::from_secs(2 * 86_400));
+        }
+    }
+}

@@ -27,7 +27,7 @@ pub(crate) enum Request<'a> {
 #[cfg(feature = "host")]
 #[derive(Debug, Deserialize)]
 pub(crate) enum Asked {
-    Start(StartInfo, Limits),
+    Start(Box<(StartInfo, Limits)>),
     Step(Snapshot),
     Reload(String),
 }
@@ -66,4 +66,30 @@ pub(crate) fn length(head: [u8; 4], most: usize) -> io::Result<usize> {
 /// What a message says.
 pub(crate) fn content<T: DeserializeOwned>(bytes: &[u8]) -> io::Result<T> {
     postcard::from_bytes(bytes).map_err(io::Error::other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn message_is_its_length_and_its_content() {
+        let bytes = message(&"word", 100).unwrap();
+        let head = *bytes.first_chunk::<4>().unwrap();
+        assert_eq!(length(head, 100).unwrap(), bytes.len() - 4);
+        assert_eq!(content::<String>(&bytes[4..]).unwrap(), "word");
+    }
+
+    #[test]
+    fn messages_beyond_the_limit_are_refused_at_both_ends() {
+        assert!(message(&"a longer word", 8).is_err());
+        assert!(length(9u32.to_le_bytes(), 8).is_err());
+        assert!(length(u32::MAX.to_le_bytes(), MAX_REQUEST).is_err());
+    }
+
+    #[test]
+    fn broken_content_is_an_error() {
+        assert!(content::<Reply>(&[0xff; 40]).is_err());
+        assert!(content::<Reply>(&[]).is_err());
+    }
 }

@@ -55,7 +55,8 @@ fn serve(vm: &VirtualMachine) -> io::Result<()> {
         let mut bytes = vec![0; protocol::length(head, MAX_REQUEST)?];
         input.read_exact(&mut bytes)?;
         let error = match protocol::content::<Asked>(&bytes)? {
-            Asked::Start(info, limits) => {
+            Asked::Start(start) => {
+                let (info, limits) = *start;
                 bounds::give_up_rights(&limits)?;
                 stage::set_up(&info, limits);
                 Controller::load(vm, &info.source, &info.file, &info.class).map(|new| controller = Some(new)).err()

@@ -1,5 +1,7 @@
 //! Scripts in a real child process.
 
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
 mod api;
 mod dunk;
 mod hostile;
