@@ -95,6 +95,7 @@ impl<S: Real> Case<S> {
             aim: &self.aim[i],
             reflex: (kind == Kind::Reflex).then_some((&self.aim[i], S::splat(1.0 / 30.0))),
             held: None,
+            rows: &[],
         }
     }
 }

@@ -48,6 +48,7 @@ mod response;
 mod settings;
 mod solve;
 mod stability;
+mod task;
 mod torque;
 mod track;
 mod upper_body;
@@ -60,11 +61,12 @@ pub use push::{GroundJerk, Push, PushFrame};
 pub use response::{Report, Response};
 pub use settings::{Coordinates, Preset, Settings};
 pub use stability::{growth, stable_compliance};
+pub use task::Task;
 pub use torque::torques;
 pub use track::{Disturbances, Track};
 
 /// The optimisation of one frame by itself, for benchmarks on other bodies.
 #[doc(hidden)]
 pub mod bench {
-    pub use crate::objective::{Frame, Objective, Weighing};
+    pub use crate::objective::{Frame, Objective, Row, Weighing};
 }

@@ -10,14 +10,15 @@
 //! | w2 y / dt | EQ4: damp velocity, relative to the input's |
 //! | w3 / dt · Ěᵀ(A y + u₀ − u₋) | EQ5: for a while after a push muscles hold their torque |
 //! | wc Êᵀ(A y + u₀ − ū + K(δ + y) + D y / dt) | EQ2: dynamics in the near-unactuated coordinates |
+//! | w (j y − t) | anything else that is wanted of this step, see [`Row`] |
 //!
 //! Tracking and damping weigh each coordinate by itself, a diagonal B. The k rows of EQ2, Rᵀy + v, are few, so they are
 //! met by k multipliers (the Woodbury identity):
 //!
 //! (Rᵀ B⁻¹ R + 1/wc²) λ = Rᵀ B⁻¹ g + v,   y = B⁻¹ (g − R λ),
 //!
-//! of which a hard constraint is the case 1/wc² = 0. Only the reflex couples the coordinates in B; then B = L D Lᵀ, and
-//! L⁻¹R takes the place of R.
+//! of which a hard constraint is the case 1/wc² = 0. Only the reflex and further rows couple the coordinates in B; then
+//! B = L D Lᵀ, and L⁻¹R takes the place of R.
 
 use crate::solve::{Factor, dot, part};
 use sinew_body::dynamics::{Real, Tree};
@@ -93,6 +94,19 @@ pub struct Frame<'a, S: Real> {
     pub reflex: Option<(&'a [S; N], S)>,
     /// Which coordinates are held (1, else 0), and at what step \[rad\]: joints that have reached their limit.
     pub held: Option<(&'a [S; N], &'a [S; N])>,
+    /// What else is wanted.
+    pub rows: &'a [Row<S>],
+}
+
+/// One more objective, ‖weight (direction · y − wanted)‖².
+#[derive(Clone, Copy, Debug)]
+pub struct Row<S: Real> {
+    /// What the step is measured along, in any unit per radian.
+    pub direction: [S; N],
+    /// How far it is to go, in that unit.
+    pub wanted: S,
+    /// Per that unit.
+    pub weight: S,
 }
 
 /// The columns in which a row of the mass matrix is not zero: the first ones, and a run further on.
@@ -179,8 +193,8 @@ impl<S: Real> Objective<S> {
     fn solve_with<const K: usize>(&self, frame: &Frame<S>) -> Vector<S> {
         let mut right = self.tracking(frame);
         let (rows, value) = self.constraint::<K>(frame);
-        if let Some((torque_before, weight)) = frame.reflex {
-            return self.solve_coupled(frame, torque_before, weight, rows, value, right);
+        if frame.reflex.is_some() || !frame.rows.is_empty() {
+            return self.solve_coupled(frame, rows, value, right);
         }
         let mut inverse = self.inverse;
         if let Some((held, step)) = frame.held {
@@ -193,17 +207,58 @@ impl<S: Real> Objective<S> {
         eliminate(&rows, value, &right, &inverse, self.softness)
     }
 
-    /// B with the reflex's rows, Ě Ěᵀ = I − Ê Êᵀ.
+    /// B with the reflex's rows and further ones.
     #[inline(never)]
     fn solve_coupled<const K: usize>(
         &self,
         frame: &Frame<S>,
-        torque_before: &Vector<S>,
-        weight: S,
         mut rows: [[S; K]; N],
         value: [S; K],
         mut right: Vector<S>,
     ) -> Vector<S> {
+        let mut matrix = [[S::ZERO; N]; N];
+        if let Some((torque_before, weight)) = frame.reflex {
+            self.add_reflex(frame, torque_before, weight, &rows, &mut matrix, &mut right);
+        }
+        for row in frame.rows {
+            let weight = row.weight * row.weight;
+            for i in 0..N {
+                let factor = row.direction[i] * weight;
+                right[i] += factor * row.wanted;
+                for (entry, &other) in matrix[i][i..].iter_mut().zip(&row.direction[i..]) {
+                    *entry += factor * other;
+                }
+            }
+        }
+        for i in 0..N {
+            matrix[i][i] += self.track + self.damp[i];
+        }
+        if let Some((held, step)) = frame.held {
+            for i in 0..N {
+                let hold = held[i] * S::splat(HOLD * HOLD);
+                matrix[i][i] += hold;
+                right[i] += hold * step[i];
+            }
+        }
+        let factor = Factor::of(&matrix);
+        factor.forward(&mut rows);
+        factor.forward_one(&mut right);
+        let mut step = eliminate(&rows, value, &right, factor.inverse(), self.softness);
+        factor.backward_one(&mut step);
+        step
+    }
+
+    /// The reflex's rows, Ě Ěᵀ = I − Ê Êᵀ.
+    #[inline(always)]
+    fn add_reflex<const K: usize>(
+        &self,
+        frame: &Frame<S>,
+        torque_before: &Vector<S>,
+        weight: S,
+        rows: &[[S; K]; N],
+        matrix: &mut Matrix<S>,
+        right: &mut Vector<S>,
+    ) {
         let per_square = self.per_square();
         let weight = weight * S::splat(1.0 / self.time_step_secs);
         let weight = weight * weight;
@@ -231,26 +286,9 @@ impl<S: Real> Objective<S> {
                 along[i] = rows[i][m] - self.passive[i][m];
             }
         }
-        let mut matrix = [[S::ZERO; N]; N];
-        self.square::<K, 0, 8, 24>(frame.mass, &along, weight, &mut matrix);
-        self.square::<K, 8, 16, 16>(frame.mass, &along, weight, &mut matrix);
-        self.square::<K, 16, 24, 8>(frame.mass, &along, weight, &mut matrix);
-        for i in 0..N {
-            matrix[i][i] += self.track + self.damp[i];
-        }
-        if let Some((held, step)) = frame.held {
-            for i in 0..N {
-                let hold = held[i] * S::splat(HOLD * HOLD);
-                matrix[i][i] += hold;
-                right[i] += hold * step[i];
-            }
-        }
-        let factor = Factor::of(&matrix);
-        factor.forward(&mut rows);
-        factor.forward_one(&mut right);
-        let mut step = eliminate(&rows, value, &right, factor.inverse(), self.softness);
-        factor.backward_one(&mut step);
-        step
+        self.square::<K, 0, 8, 24>(frame.mass, &along, weight, matrix);
+        self.square::<K, 8, 16, 16>(frame.mass, &along, weight, matrix);
+        self.square::<K, 16, 24, 8>(frame.mass, &along, weight, matrix);
     }
 
     /// Rows `FROM` to `TO` of w² A (I − Ê Êᵀ) A, of each the `LENGTH` entries from `FROM` on: the matrix is symmetric.

@@ -1,6 +1,6 @@
 //! The step against the dense least-squares problem as the table in [`crate::objective`] states it, solved by a library.
 
-use crate::objective::{Frame, Matrix, Objective, Vector, Weighing};
+use crate::objective::{Frame, Matrix, Objective, Row, Vector, Weighing};
 use crate::upper_body::{JointMotion, UpperBody, locals};
 use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
@@ -19,6 +19,7 @@ struct Case {
     torque_before: Vector<f64>,
     held: Vector<f64>,
     stops: Vector<f64>,
+    rows: Vec<Row<f64>>,
     reflex: f64,
     holds: bool,
 }
@@ -66,6 +67,7 @@ impl Case {
             aim: vector(60.0),
             torque_before: vector(60.0),
             held: vector(1.0).map(|value| f64::from(holds && value > 0.6)),
+            rows: Vec::new(),
             stops: vector(0.02),
             reflex,
             holds,
@@ -81,6 +83,7 @@ impl Case {
             aim: &self.aim,
             reflex: (self.reflex > 0.0).then_some((&self.torque_before, self.reflex)),
             held: self.holds.then_some((&self.held, &self.stops)),
+            rows: &self.rows,
         }
     }
 
@@ -116,6 +119,11 @@ impl Case {
         let rows = &e * (&a + per_angle);
         let springs = column(&w.stiffness).component_mul(&column(&self.deviation));
         let value = &e * (column(&self.torque) - column(&self.aim) + springs);
+        for row in &self.rows {
+            let direction = column(&row.direction) * row.weight;
+            hessian += &direction * direction.transpose();
+            right += direction * (row.weight * row.wanted);
+        }
         if w.dynamics.is_finite() {
             let weight = w.dynamics * w.dynamics;
             hessian += rows.transpose() * &rows * weight;
@@ -156,6 +164,24 @@ fn every_route_to_the_step_agrees_with_the_dense_problem() {
             let tolerance = if holds { 1e-7 } else { 1e-9 };
             assert!(worst < tolerance, "k {k}, wc {dynamics}, w3 {reflex}, held {holds}: {worst} rad");
         }
+    }
+}
+
+#[test]
+fn further_rows_are_met_as_in_the_dense_problem() {
+    for (dynamics, reflex, holds) in
+        [(6.7, 0.0, false), (6.7, 0.0, true), (6.7, 1.0 / 30.0, false), (f64::INFINITY, 1.0 / 30.0, false)]
+    {
+        let mut case = Case::new(11, 10, dynamics, reflex, holds);
+        for at in 0..3 {
+            let direction = std::array::from_fn(|i| if i % 3 == at { case.deviation[i] } else { 0.0 });
+            case.rows.push(Row { direction, wanted: 0.1 * at as f64 - 0.05, weight: 2000.0 });
+        }
+        let step = case.objective().solve(&case.frame());
+        let worst = step.iter().zip(case.oracle()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        // As above.
+        let tolerance = if holds { 1e-7 } else { 1e-9 };
+        assert!(worst < tolerance, "wc {dynamics}, w3 {reflex}, held {holds}: {worst} rad");
     }
 }
 

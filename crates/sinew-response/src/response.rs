@@ -5,8 +5,9 @@ use crate::force::PointForce;
 use crate::hips::{HipsDeviation, HipsState};
 use crate::input::Input;
 use crate::limits::Limits;
-use crate::objective::{Frame, Objective, Weighing};
+use crate::objective::{Frame, Objective, Row, Weighing};
 use crate::settings::{REFERENCE_MASS_KG, REFLEX_SECS, Settings, Weights};
+use crate::task::{MOST_ROWS, Task, rows_of};
 use crate::torque::{Differences, world_turn};
 use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
@@ -45,6 +46,7 @@ pub struct Response {
     settings: Settings,
     weights: Weights,
     objective: Objective<f64>,
+    rows: Vec<Row<f64>>,
     state: State,
     report: Report,
 }
@@ -133,6 +135,7 @@ impl Response {
             body,
             settings,
             weights,
+            rows: Vec::with_capacity(MOST_ROWS),
             state: State::at(first, first),
             report: Report::default(),
         }
@@ -153,6 +156,11 @@ impl Response {
 
     /// As [`Response::step`], on ground that accelerates \[m/s², world\]: the body is carried along and its upper part lags.
     pub fn step_on_moving_ground(&mut self, wanted: &Pose, forces: &[PointForce], ground: DVec3) -> Pose {
+        self.step_with_tasks(wanted, forces, ground, &[])
+    }
+
+    /// As [`Response::step_on_moving_ground`], with further objectives: those of this step, at most 24 rows of them (an aim has two).
+    pub fn step_with_tasks(&mut self, wanted: &Pose, forces: &[PointForce], ground: DVec3, tasks: &[Task]) -> Pose {
         let state = &mut self.state;
         let next = state.input.followed_by(if wanted.is_finite() { wanted } else { &state.input.pose });
         let ground = if ground.is_finite() { ground.clamp_length_max(1e3) } else { DVec3::ZERO };
@@ -170,7 +178,7 @@ impl Response {
         let aim =
             if self.weights.aims_at_input { state.input.torque(&next, &mut self.upper, dt) } else { [0.0; UPPER_DOFS] };
 
-        self.report = self.respond(next, forces, ground, shown, &aim);
+        self.report = self.respond(next, forces, ground, shown, &aim, tasks);
         self.state.output
     }
 
@@ -182,8 +190,9 @@ impl Response {
         ground: DVec3,
         shown: HipsDeviation,
         aim: &Coordinates24,
+        tasks: &[Task],
     ) -> Report {
-        let Response { body, upper, limits, weights, objective, state, .. } = self;
+        let Response { body, upper, limits, weights, objective, state, rows, .. } = self;
         let dt = self.settings.time_step_secs;
         let ground_next = state.ground * 2.0 - state.ground_before + ground * (dt * dt);
         let hips_position = state.output.hips_position - state.ground;
@@ -217,6 +226,12 @@ impl Response {
 
         let reflex = state.reflex(&load, ground, self.mass_kg, dt);
         let torque_before = state.torque_before.unwrap_or(torque);
+        rows.clear();
+        if !tasks.is_empty() {
+            // On ground at rest, as the tasks see the world.
+            let kept = posed(body, &next, &state.turned, &shown, DVec3::ZERO);
+            rows_of(tasks, &kept, body, dt, rows);
+        }
         let mut frame = Frame {
             mass: upper.found_mass(),
             deviation: &state.deviation,
@@ -225,6 +240,7 @@ impl Response {
             aim,
             reflex: (reflex > 0.0 && weights.reflex > 0.0).then_some((&torque_before, weights.reflex * reflex)),
             held: None,
+            rows,
         };
         let mut step = slowed(objective.solve(&frame), dt);
         let mut limited = 0;
