@@ -6,6 +6,7 @@ mod output;
 mod push_argument;
 mod respond;
 mod run;
+mod session;
 
 use clap::{Parser, Subcommand};
 use sinew::body::humanoid::ReductionError;

@@ -1,6 +1,7 @@
 //! `sinew run` and `sinew replay`.
 
 use super::output;
+use super::session::Session;
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use sinew::motion::formats::{Format, WriteJob, write};
@@ -23,6 +24,10 @@ pub(super) struct Run {
     /// Press a key of the scene at a time \[s\], such as b@1.5; may be repeated.
     #[arg(long, value_name = "KEY@SECONDS", value_parser = press)]
     press: Vec<(f64, String)>,
+    /// Run at the pace of the clock: controllers are read again when their files change, and lines of the standard input are
+    /// obeyed: a key of the scene, or a command as JSON such as {"character":"left","do":"pose","name":"guard"}.
+    #[arg(long)]
+    real_time: bool,
     /// Where to record the take, for `sinew replay`.
     #[arg(long, value_name = "T.take")]
     take: Option<PathBuf>,
@@ -82,7 +87,11 @@ impl Run {
         let bar = bar();
         let job = RunJob { for_secs: self.for_secs, host: script_host(), presses: self.press.clone() };
         let for_picture = scene.clone();
-        let ran = run(scene, &job, |done, of| show(&bar, done, of))?;
+        let mut session = self.real_time.then(|| Session::begin(&scene));
+        let ran = run(scene, &job, |stage, done, of| match &mut session {
+            Some(session) => session.before_step(stage),
+            None => show(&bar, done, of),
+        })?;
         bar.finish_and_clear();
         if let Some(path) = &self.take {
             output::make_folder(path)?;
@@ -100,7 +109,7 @@ impl Replay {
         let take = Take::open(&self.take)?;
         let folder = self.take.parent();
         let bar = bar();
-        let ran = replay(&take, &self.set, folder, script_host(), |done, of| show(&bar, done, of))?;
+        let ran = replay(&take, &self.set, folder, script_host(), |_, done, of| show(&bar, done, of))?;
         bar.finish_and_clear();
         let mut scene = take.to_scene(folder)?;
         for (path, value) in &self.set {
@@ -253,6 +262,11 @@ fn bar() -> ProgressBar {
 }
 
 fn show(bar: &ProgressBar, done: u64, of: u64) {
-    bar.set_length(of);
-    bar.set_position(done);
+    if done % STEPS_PER_UPDATE == 0 {
+        bar.set_length(of);
+        bar.set_position(done);
+    }
 }
+
+/// Steps between two looks of the progress bar.
+const STEPS_PER_UPDATE: u64 = 60;

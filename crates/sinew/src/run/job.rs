@@ -49,13 +49,14 @@ const MOST_SECS: f64 = 3600.0;
 /// Steps between two hashes of a take's trace: one a second at 240 Hz.
 const TRACE_STEPS: u64 = 240;
 
-/// Runs a scene. `progress` is told how many steps are done, of how many.
+/// Runs a scene. `before_step` is called before every step with the stage, how many steps are done, and of how many; it may give
+/// the stage commands, which go into the take.
 ///
 /// ```
 /// use sinew::run::{RunJob, run};
 /// use sinew::stage::Scene;
 /// let scene = Scene::from_text("format = 1\n[characters.one]\npose = \"stand\"\n")?;
-/// let ran = run(scene, &RunJob { for_secs: Some(0.5), ..RunJob::default() }, |_, _| ())?;
+/// let ran = run(scene, &RunJob { for_secs: Some(0.5), ..RunJob::default() }, |_, _, _| ())?;
 /// assert_eq!(ran.report.steps, 120);
 /// assert_eq!(ran.recording.frames, 31);
 /// # Ok::<(), sinew::run::RunError>(())
@@ -63,7 +64,11 @@ const TRACE_STEPS: u64 = 240;
 ///
 /// # Errors
 /// When the scene cannot be built or the time is out of range.
-pub fn run(scene: Scene, job: &RunJob, progress: impl FnMut(u64, u64)) -> Result<Ran, RunError> {
+pub fn run(
+    scene: Scene,
+    job: &RunJob,
+    before_step: impl FnMut(&mut Stage, u64, u64),
+) -> Result<Ran, RunError> {
     let for_secs = job.for_secs.unwrap_or(scene.stage.duration_secs);
     if !(for_secs > 0.0 && for_secs <= MOST_SECS) {
         return Err(RunError::Duration(for_secs));
@@ -76,7 +81,7 @@ pub fn run(scene: Scene, job: &RunJob, progress: impl FnMut(u64, u64)) -> Result
     if let Some((_, key)) = presses.iter().find(|(_, key)| !stage.scene().keys.iter().any(|bound| bound.key == *key)) {
         return Err(RunError::Key(key.clone()));
     }
-    Ok(play(stage, steps, take, &presses, progress))
+    Ok(play(stage, steps, take, &presses, before_step))
 }
 
 /// Plays a take again, with the commands at their steps. `sets` change values of the scene first, as `--set` does;
@@ -89,7 +94,7 @@ pub fn replay(
     sets: &[(String, String)],
     folder: Option<&Path>,
     host: Option<ScriptHost>,
-    progress: impl FnMut(u64, u64),
+    before_step: impl FnMut(&mut Stage, u64, u64),
 ) -> Result<Ran, RunError> {
     let mut scene = take.to_scene(folder)?;
     for (path, value) in sets {
@@ -98,7 +103,7 @@ pub fn replay(
     let again = Take::of(&scene);
     let mut stage = Stage::new(scene, host)?;
     stage.prescribe(take.commands.clone());
-    Ok(play(stage, take.steps, again, &[], progress))
+    Ok(play(stage, take.steps, again, &[], before_step))
 }
 
 fn play(
@@ -106,7 +111,7 @@ fn play(
     steps: u64,
     mut take: Take,
     presses: &[(f64, String)],
-    mut progress: impl FnMut(u64, u64),
+    mut before_step: impl FnMut(&mut Stage, u64, u64),
 ) -> Ran {
     let mut presses = presses.iter().peekable();
     let mut recording = Recording::new(&stage);
@@ -118,6 +123,7 @@ fn play(
         while let Some((_, key)) = presses.next_if(|(secs, _)| *secs <= stage.frame().time_secs + 1e-9) {
             stage.press(key);
         }
+        before_step(&mut stage, step - 1, steps);
         stage.step();
         report.watch(&stage);
         if step % per_frame == 0 {
@@ -125,7 +131,6 @@ fn play(
         }
         if step % TRACE_STEPS == 0 {
             hashes.push(stage.hash());
-            progress(step, steps);
         }
     }
     take.commands = stage.record().to_vec();

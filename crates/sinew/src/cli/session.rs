@@ -1,0 +1,87 @@
+//! A run at the pace of the clock, with somebody at the keyboard and an editor open beside it.
+
+use sinew::control::{Action, Command};
+use sinew::stage::{Scene, Stage};
+use std::io::BufRead;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::time::{Duration, Instant, SystemTime};
+
+/// What happens around the steps of a run in real time.
+pub(super) struct Session {
+    began: Option<Instant>,
+    lines: Receiver<String>,
+    /// Controllers with a file: name, place, when it was last changed.
+    files: Vec<(String, PathBuf, Option<SystemTime>)>,
+    looked: Instant,
+    told: usize,
+}
+
+/// Lines that wait to be obeyed.
+const MOST_LINES: usize = 100;
+
+/// Time between two looks at the controllers' files.
+const LOOK: Duration = Duration::from_millis(200);
+
+impl Session {
+    pub(super) fn begin(scene: &Scene) -> Session {
+        let (sender, lines) = sync_channel(MOST_LINES);
+        // It ends with the program, or with the input.
+        std::thread::spawn(move || {
+            for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+                if sender.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+        let files = scene.controllers.iter().filter_map(|(name, controller)| {
+            let path = scene.on_disk(controller.file.as_ref()?)?;
+            let changed = changed(&path);
+            Some((name.clone(), path, changed))
+        });
+        Session { began: None, lines, files: files.collect(), looked: Instant::now(), told: 0 }
+    }
+
+    /// Waits until the step's time has come, obeys what was typed, reloads what was edited, and tells what happened.
+    pub(super) fn before_step(&mut self, stage: &mut Stage) {
+        let began = *self.began.get_or_insert_with(Instant::now);
+        let due = Duration::from_secs_f64(stage.frame().time_secs);
+        std::thread::sleep(due.saturating_sub(began.elapsed()));
+        for line in self.lines.try_iter().take(MOST_LINES) {
+            obey(stage, line.trim());
+        }
+        if self.looked.elapsed() > LOOK {
+            self.looked = Instant::now();
+            for (name, path, before) in &mut self.files {
+                let now = changed(path);
+                if now.is_some() && now != *before {
+                    *before = now;
+                    stage.command(Command::stage(Action::Reload { name: name.clone(), text: None }));
+                }
+            }
+        }
+        for event in stage.events().list().iter().skip(self.told) {
+            eprintln!("{:7.3} s  {}  ({})", event.time_secs, event.effect, event.cause);
+        }
+        self.told = stage.events().list().len();
+    }
+}
+
+fn obey(stage: &mut Stage, line: &str) {
+    if line.is_empty() {
+        return;
+    }
+    if line.starts_with('{') {
+        match serde_json::from_str(line) {
+            Ok(command) => stage.command(command),
+            Err(error) => eprintln!("this is no command: {error}"),
+        }
+    } else if !stage.press(line) {
+        let keys: Vec<&str> = stage.scene().keys.iter().map(|binding| binding.key.as_str()).collect();
+        eprintln!("no key `{line}`; the scene has {}", keys.join(", "));
+    }
+}
+
+fn changed(path: &std::path::Path) -> Option<SystemTime> {
+    std::fs::metadata(path).ok()?.modified().ok()
+}
