@@ -1,5 +1,6 @@
 //! The poses that are shipped.
 
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 #![allow(clippy::disallowed_methods, reason = "tests may use the platform's mathematics")]
 
 use glam::{DQuat, DVec3};

@@ -1,5 +1,7 @@
 //! Pose graphs: what fires when and why, and what a state changes in its pose.
 
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp, log};
 use sinew_control::Target;

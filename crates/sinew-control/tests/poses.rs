@@ -1,5 +1,7 @@
 //! Key poses: what files state, what they come to, and how the wanted pose moves between them.
 
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, LimbGoal, Node, Pose, log, solve_limb};
 use sinew_control::Target;
