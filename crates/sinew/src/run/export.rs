@@ -98,7 +98,7 @@ fn locals(body: &Body, pose: &Pose) -> [Transform; Node::COUNT] {
     })
 }
 
-/// A solid as capsules: exact for balls, capsules and rings; a box as its edges and diagonals of its faces.
+/// A solid as capsules: exact for balls, capsules and rings; a box as bars over its faces.
 pub fn capsules(solid: &Solid) -> Vec<(DVec3, DVec3, f64)> {
     let place = |point: DVec3| solid.centre + solid.rotation * point;
     let line = |from: DVec3, to: DVec3, radius: f64| (place(from), place(to), radius);
@@ -133,26 +133,38 @@ const MOST_EDGES: usize = 600;
 /// Half the thickness of a shown edge \[m\].
 const EDGE_M: f64 = 0.01;
 
-/// A box as bars along its longest edge, as thick as its shortest: filled where it is flat or long.
+/// A box as bars side by side over its faces; a plate as one layer of bars.
 fn boxed(size: DVec3) -> Vec<(DVec3, DVec3, f64)> {
-    let mut axes = [0, 1, 2];
-    let sizes = size.to_array();
-    axes.sort_by(|&a, &b| sizes[a].total_cmp(&sizes[b]));
-    let [thin, middle, long] = axes;
-    let radius = sizes[thin] / 2.0;
+    let radius = (size.min_element() / 2.0).min(size.max_element() * EDGE_SHARE);
+    let reach = (size / 2.0 - radius).max(DVec3::ZERO).to_array();
     let unit = |axis: usize| DVec3::AXES[axis];
-    let reach = (sizes[long] / 2.0 - radius).max(0.0);
-    // Bars side by side, a radius and a half apart, so that the surface looks closed.
-    let span = (sizes[middle] / 2.0 - radius).max(0.0);
-    let bars = ((2.0 * span / (1.5 * radius)).ceil() as usize + 1).clamp(1, 60);
-    (0..bars)
-        .map(|bar| {
-            let across = if bars == 1 { 0.0 } else { -span + 2.0 * span * bar as f64 / (bars - 1) as f64 };
-            let middle = unit(middle) * across;
-            (middle - unit(long) * reach, middle + unit(long) * reach, radius)
-        })
-        .collect()
+    let mut bars = Vec::new();
+    for normal in 0..3 {
+        let (one, other) = ((normal + 1) % 3, (normal + 2) % 3);
+        let (long, across) = if reach[one] >= reach[other] { (one, other) } else { (other, one) };
+        if reach[normal] > 0.0 && (reach[one] == 0.0 || reach[other] == 0.0) {
+            // A plate's or a stick's narrow side: its broad ones show all of it.
+            continue;
+        }
+        let sides: &[f64] = if reach[normal] == 0.0 { &[0.0] } else { &[-1.0, 1.0] };
+        // A radius and a half apart, so that the surface looks closed.
+        let gaps = ((2.0 * reach[across] / (1.5 * radius)).ceil() as usize).clamp(usize::from(reach[across] > 0.0), 60);
+        for side in sides {
+            for bar in 0..=gaps {
+                let at = if gaps == 0 { 0.0 } else { 2.0 * bar as f64 / gaps as f64 - 1.0 };
+                let middle = unit(normal) * (side * reach[normal]) + unit(across) * (at * reach[across]);
+                bars.push((middle - unit(long) * reach[long], middle + unit(long) * reach[long], radius));
+            }
+        }
+        if reach[normal] == 0.0 {
+            break;
+        }
+    }
+    bars
 }
+
+/// Rounding of a shown box's edges, relative to its longest edge \[1\].
+const EDGE_SHARE: f64 = 0.06;
 
 /// A recording as a table: time, then place and rotation of every body, one row a frame.
 pub fn csv(recording: &Recording) -> String {
