@@ -49,8 +49,11 @@ impl Steering {
             hold_upright(swing, character, world_from_facing, target);
             // A turn of the hips against the thigh that carries: as if the thigh stood still in the world.
             let world_from_hips = world_from_facing * exp(DVec3::X * lean);
-            let thigh = character.part(stance).rotation;
-            target.joint_mut(stance).rotation = (world_from_hips.conjugate() * thigh).normalize();
+            let thigh = character.part(stance);
+            let joint = target.joint_mut(stance);
+            joint.rotation = (world_from_hips.conjugate() * thigh.rotation).normalize();
+            // And damped in the world: the thigh that turns under the hips does not drag them along.
+            joint.velocity = finite(thigh.rotation.conjugate() * thigh.angular_velocity);
         }
     }
 }
@@ -75,17 +78,19 @@ fn facing_turn(character: &CharacterFrame) -> DQuat {
     exp(DVec3::Y * libm::atan2(character.facing.x, character.facing.z))
 }
 
-/// Makes a part's wanted turn in the pose, seen from upright hips, its wanted turn in the world.
+/// Makes a part's wanted turn one in the world: what the pose says of it is measured from the upright facing frame.
 fn hold_upright(node: Node, character: &CharacterFrame, world_from_facing: DQuat, target: &mut Target) {
     let Some(parent) = node.parent() else {
         return;
     };
-    let mut in_pose = target.joint(node).rotation;
-    let mut at = parent;
-    while let Some(above) = at.parent() {
-        in_pose = target.joint(at).rotation * in_pose;
-        at = above;
-    }
-    let parent_from_world = character.part(parent).rotation.conjugate();
-    target.joint_mut(node).rotation = (parent_from_world * world_from_facing * in_pose).normalize();
+    let parent = character.part(parent);
+    let joint = target.joint_mut(node);
+    let world_from_node = world_from_facing * joint.rotation;
+    joint.rotation = (parent.rotation.conjugate() * world_from_node).normalize();
+    // What is wanted in the world is damped in the world, whatever the parent does.
+    joint.velocity -= finite(world_from_node.conjugate() * parent.angular_velocity);
+}
+
+fn finite(velocity: DVec3) -> DVec3 {
+    if velocity.is_finite() { velocity } else { DVec3::ZERO }
 }
