@@ -10,7 +10,7 @@ const ALONE: [(&str, &[&str]); 8] = [
     ("sinew-response", &["ufbx", "serde_json", "base64", "clap", "tiny-skia"]),
     ("sinew-world", &["ufbx", "clap", "tiny-skia", "rustpython-vm", "toml"]),
     ("sinew-control", &["ufbx", "clap", "tiny-skia", "rustpython-vm"]),
-    ("sinew-script", &["rustpython-vm", "sinew-stage", "clap"]),
+    ("sinew-script", &["rustpython-vm", "malachite-bigint", "sinew-stage", "clap"]),
     ("sinew-stage", &["rustpython-vm", "clap", "tiny-skia"]),
     ("sinew-picture", &["sinew-motion", "sinew-body"]),
 ];

@@ -140,6 +140,23 @@ pub enum Action {
         #[serde(default)]
         for_secs: Option<f64>,
     },
+    /// Add one of the scene's shapes to a part, on top of what it has; it weighs nothing.
+    AddShape {
+        /// The part.
+        part: String,
+        /// A named shape of the scene.
+        shape: String,
+        /// For how long \[s\]; until removed when left out.
+        #[serde(default)]
+        for_secs: Option<f64>,
+    },
+    /// Take a shape away again that was added.
+    RemoveShape {
+        /// The part.
+        part: String,
+        /// Its name.
+        shape: String,
+    },
     /// Switch one of the three layers on or off.
     Layer {
         /// Which.

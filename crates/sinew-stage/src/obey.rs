@@ -149,18 +149,28 @@ impl Stage {
                 let solid = match shape.as_str() {
                     "own" => PartShape::Own,
                     "none" => PartShape::None,
-                    name => {
-                        let spec = self.scene.shapes.get(name).and_then(crate::scene::ShapeSpec::solid);
-                        PartShape::Other(spec.ok_or_else(|| {
-                            let known: Vec<&str> = self.scene.shapes.keys().map(String::as_str).collect();
-                            format!("no shape `{name}`; there are own, none, {}", known.join(", "))
-                        })?)
-                    }
+                    name => PartShape::Other(self.shape(name)?),
                 };
                 self.world.set_shape(character, node, solid.clone()).map_err(|error| error.to_string())?;
                 self.note_shape(character, node, solid);
                 self.spans.end_at(until, Ending::Shape(character, node));
                 format!("{who}'s {} has the shape {shape}", node.part())
+            }
+            Action::AddShape { part, shape, for_secs } => {
+                let node = self.part(character, part)?;
+                let until = self.until(*for_secs)?;
+                let solid = self.shape(shape)?;
+                self.world.add_shape(character, node, shape, &solid).map_err(|error| error.to_string())?;
+                self.spans.end_at(until, Ending::ExtraShape(character, node, shape.clone()));
+                format!("{who}'s {} has the shape {shape} as well", node.part())
+            }
+            Action::RemoveShape { part, shape } => {
+                let node = self.part(character, part)?;
+                if !self.world.remove_shape(character, node, shape) {
+                    return Err(format!("no shape `{shape}` was added to the {}", node.part()));
+                }
+                self.spans.end_at(None, Ending::ExtraShape(character, node, shape.clone()));
+                format!("{who}'s {} has the shape {shape} no longer", node.part())
             }
             Action::Layer { layer, on } => {
                 self.actors[character].set_layer(*layer, *on);
@@ -260,6 +270,10 @@ impl Stage {
                 self.shapes.remove(&(*character, *node));
                 format!("{}'s {} has its own shape", who(*character), node.part())
             }
+            Ending::ExtraShape(character, node, name) => {
+                self.world.remove_shape(*character, *node, name);
+                format!("{}'s {} has the shape {name} no longer", who(*character), node.part())
+            }
             Ending::Acceleration(prop) => {
                 self.world.accelerate_prop(*prop, DVec3::ZERO);
                 format!("{} keeps its speed", self.cast.props()[*prop])
@@ -308,6 +322,14 @@ impl Stage {
 
     fn prop(&self, name: &str) -> Result<usize, String> {
         self.cast.prop(name).ok_or_else(|| format!("no object `{name}`; there are {}", self.cast.props().join(", ")))
+    }
+
+    /// A shape of the scene.
+    fn shape(&self, name: &str) -> Result<sinew_world::Solid, String> {
+        self.scene.shapes.get(name).and_then(crate::scene::ShapeSpec::solid).ok_or_else(|| {
+            let known: Vec<&str> = self.scene.shapes.keys().map(String::as_str).collect();
+            format!("no shape `{name}`; there are own, none, {}", known.join(", "))
+        })
     }
 
     /// One thing that can be held.

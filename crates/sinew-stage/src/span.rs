@@ -17,6 +17,8 @@ pub enum Ending {
     PropGravity(usize),
     /// A part gets its own shape again.
     Shape(usize, Node),
+    /// A shape that was added to a part is taken away.
+    ExtraShape(usize, Node, String),
     /// A moving prop keeps its speed.
     Acceleration(usize),
 }

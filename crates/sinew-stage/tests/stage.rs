@@ -172,3 +172,25 @@ fn a_held_ball_stays_in_the_hand_until_it_is_let_go() {
     assert!(stage.frame().props[0].position.y < 0.1);
     assert!(stage.frame().props[0].position.distance(DVec3::ZERO) < 3.0);
 }
+
+#[test]
+fn an_added_shape_touches_until_its_time_is_over() {
+    use sinew_body::humanoid::Node;
+    use sinew_world::Entity;
+    let pole_touches = |for_secs: f64| {
+        let mut stage = stage(&format!(
+            "[shapes.pole]\nbox_m = [0.1, 1.0, 0.1]\ncentre_m = [0, -1.2, 0]\n[characters.one]\nposition_m = [0, 3, 0]\n\
+             [[at]]\ntime_secs = 0\ncharacter = \"one\"\ndo = \"add_shape\"\npart = \"hips\"\nshape = \"pole\"\n\
+             for_secs = {for_secs}\n"
+        ));
+        let mut touches = false;
+        // 3 m of fall take 0.78 s; the pole reaches 0.7 m lower than the soles, and touches after 0.69 s.
+        for _ in 0..180 {
+            stage.step();
+            touches |= stage.frame().are_touching(Entity::Floor, Entity::Part(0, Node::Hips));
+        }
+        touches
+    };
+    assert!(pole_touches(2.0));
+    assert!(!pole_touches(0.6));
+}

@@ -1,6 +1,7 @@
 //! A character in the world: its bodies, joints, and what holds them.
 
 use crate::engine::Engine;
+use crate::extra_shape::ExtraShape;
 use crate::joint::{LimitSpring, write_ball, write_hinge};
 use crate::ragdoll::is_hinge;
 use crate::{CharacterSpec, Drive, Pin};
@@ -34,6 +35,7 @@ pub(crate) struct Character {
     pub outboard: [f64; Node::COUNT],
     pub gravity_scale: f64,
     pub planes: Vec<ImpulseJointHandle>,
+    pub extra_shapes: Vec<ExtraShape>,
     limit_spring: LimitSpring,
     stays_awake: bool,
 }
@@ -59,6 +61,7 @@ impl Character {
             outboard,
             gravity_scale: 1.0,
             planes: Vec::new(),
+            extra_shapes: Vec::new(),
             limit_spring,
             stays_awake: false,
         }

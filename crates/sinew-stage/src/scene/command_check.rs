@@ -111,6 +111,15 @@ impl SceneSpec {
                 one_of("shape", shape, &mut self.shapes.keys().map(String::as_str).chain(["own", "none"]))?;
                 secs(*for_secs)
             }
+            A::AddShape { part: name, shape, for_secs } => {
+                part(name)?;
+                one_of("shape", shape, &mut self.shapes.keys().map(String::as_str))?;
+                secs(*for_secs)
+            }
+            A::RemoveShape { part: name, shape } => {
+                part(name)?;
+                one_of("shape", shape, &mut self.shapes.keys().map(String::as_str))
+            }
             A::Reflex { name, .. } => {
                 self.owner(command)?;
                 one_of("reflex", name, &mut REFLEXES.into_iter())

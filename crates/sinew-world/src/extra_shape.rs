@@ -1,0 +1,48 @@
+//! Collision shapes on top of a part's own, added and removed while the world runs (Shapiro et al. 2007, section 4.2).
+
+use crate::ragdoll::part_collider;
+use crate::{Solid, SpecError, World};
+use rapier3d_f64::prelude::*;
+use sinew_body::humanoid::Node;
+
+/// A shape that was added.
+pub(crate) struct ExtraShape {
+    pub node: Node,
+    pub name: String,
+    pub collider: ColliderHandle,
+}
+
+/// Shapes that a character may have on top of its own.
+const MOST_EXTRA_SHAPES: usize = 64;
+
+impl World {
+    /// Adds a shape to a part, in its frame, under a name; one of that name on that part is replaced. It weighs nothing.
+    ///
+    /// # Errors
+    /// When the shape is none, or the character has 64 of them.
+    pub fn add_shape(&mut self, character: usize, node: Node, name: &str, solid: &Solid) -> Result<(), SpecError> {
+        self.remove_shape(character, node, name);
+        let Some(one) = self.characters.get_mut(character) else { return Ok(()) };
+        if one.extra_shapes.len() >= MOST_EXTRA_SHAPES {
+            return Err(SpecError::TooManyShapes);
+        }
+        let collider = part_collider(solid, one.spec.surface, character, node).ok_or(SpecError::NoShape)?;
+        let body = one.bodies[node.index()];
+        let collider = self.engine.colliders.insert_with_parent(collider, body, &mut self.engine.bodies);
+        one.extra_shapes.push(ExtraShape { node, name: name.to_owned(), collider });
+        Ok(())
+    }
+
+    /// Takes a shape away that was added. False when there is none of that name on that part.
+    pub fn remove_shape(&mut self, character: usize, node: Node, name: &str) -> bool {
+        let Some(one) = self.characters.get_mut(character) else { return false };
+        let Some(place) = one.extra_shapes.iter().position(|extra| extra.node == node && extra.name == name) else {
+            return false;
+        };
+        let extra = one.extra_shapes.remove(place);
+        let engine = &mut self.engine;
+        let (islands, bodies, soft) = (&mut engine.islands, &mut engine.bodies, &mut engine.soft_bodies);
+        engine.colliders.remove(extra.collider, islands, bodies, soft, true);
+        true
+    }
+}
