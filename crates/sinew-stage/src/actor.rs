@@ -143,7 +143,7 @@ impl Actor {
     pub(crate) fn reach(&mut self, node: Node, target: DVec3, effector: DVec3) -> Result<bool, String> {
         let limb = Limb::of(node).ok_or_else(|| format!("{} is no part of an arm or a leg", node.part()))?;
         let reach = Reach { target, effector };
-        let is_new = self.player.ik.of(limb) != Some(reach);
+        let is_new = self.player.ik.of(limb).is_none_or(|before| before.target != target);
         self.player.ik.reach(limb, reach);
         Ok(is_new)
     }
