@@ -31,7 +31,8 @@ const SOFT: (f64, f64) = (4.0, 0.7);
 impl World {
     /// Fastens something to a part as the two lie now. Fastened already, nothing changes.
     pub fn attach(&mut self, held: Held) {
-        if self.is_attached(held.character, held.node, held.object) {
+        let itself = held.object == Entity::Part(held.character, held.node);
+        if itself || self.is_attached(held.character, held.node, held.object) {
             return;
         }
         let (Some(one), Some(other)) = (self.handle(Entity::Part(held.character, held.node)), self.handle(held.object))

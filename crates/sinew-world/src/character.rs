@@ -78,15 +78,21 @@ impl Character {
         }
         for node in Node::ALL {
             if node.parent().is_some() {
-                self.prepare_joint(engine, node);
+                self.prepare_joint(engine, node, step_secs);
             }
             self.prepare_body(engine, node, step_secs);
         }
     }
 
-    /// What springs hold may seem to rest while it slowly tips: only a limp body may sleep.
-    pub fn keep_awake(&mut self, engine: &mut Engine, awake: bool) {
-        if self.stays_awake == awake {
+    /// Wakes the character after something that holds it has changed. What is held may seem to rest while it slowly tips, or
+    /// while it creeps to its place: only a limp body may sleep.
+    pub fn hold_changed(&mut self, engine: &mut Engine) {
+        let drives = self
+            .drives
+            .iter()
+            .any(|drive| drive.stiffness > 0.0 || drive.velocity != DVec3::ZERO || drive.torque != DVec3::ZERO);
+        let awake = drives || self.pins.iter().any(Option::is_some);
+        if self.stays_awake == awake && !self.is_asleep(engine) {
             return;
         }
         self.stays_awake = awake;
@@ -107,7 +113,7 @@ impl Character {
         engine.bodies.get(self.bodies[node.index()]).map_or(DQuat::IDENTITY, |body| *body.rotation())
     }
 
-    fn prepare_joint(&self, engine: &mut Engine, node: Node) {
+    fn prepare_joint(&self, engine: &mut Engine, node: Node, step_secs: f64) {
         let Some(parent) = node.parent() else { return };
         let parent_rotation = self.rotation(engine, parent);
         let local = (parent_rotation.conjugate() * self.rotation(engine, node)).normalize();
@@ -115,7 +121,7 @@ impl Character {
         let limit = self.body().link(node).limit;
         let Some(joint) = engine.joints.get_mut(self.joints[node.index()], false) else { return };
         let write = if is_hinge(node) { write_hinge } else { write_ball };
-        write(&mut joint.data, &limit, &self.limit_spring, &drive, local);
+        write(&mut joint.data, &limit, &self.limit_spring, &drive, local, step_secs);
         if drive.torque != DVec3::ZERO {
             for (part, torque) in [(node, drive.torque), (parent, -drive.torque)] {
                 if let Some(body) = engine.bodies.get_mut(self.bodies[part.index()]) {

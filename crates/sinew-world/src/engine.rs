@@ -26,12 +26,12 @@ impl Engine {
     pub fn new(settings: &WorldSettings) -> Engine {
         let mut parameters = IntegrationParameters::default();
         parameters.dt = settings.step_secs();
-        parameters.num_solver_iterations = settings.solver_iterations.clamp(1, 64);
+        parameters.num_solver_iterations = settings.solver_iterations;
         parameters.contact_clustering = false;
         // Springs act through the whole body: one sweep a sub-step hands them on by one joint only, and feet that hold 80 kg
         // by an ankle's spring bounce.
-        parameters.num_internal_pgs_iterations = settings.solver_sweeps.clamp(1, 64);
-        parameters.num_internal_stabilization_iterations = settings.solver_sweeps.div_ceil(4).clamp(1, 16);
+        parameters.num_internal_pgs_iterations = settings.solver_sweeps;
+        parameters.num_internal_stabilization_iterations = settings.solver_sweeps.div_ceil(4);
         parameters.friction_model = FrictionModel::Coulomb;
         let mut engine = Engine {
             pipeline: PhysicsPipeline::new(),

@@ -1,7 +1,7 @@
 //! One joint for one step: its spring, and its limits as exponential springs, handed to the solver as implicit motors.
 //!
-//! The rows of the solver's joint are turned so that the first axis is the swing that is nearest its limit and the second
-//! the twist about the bone. So pose spring and limit spring of one direction are one row,
+//! The rows of the solver's joint are turned so that the first axis is the one about which the swing comes to its limit soonest
+//! and the second the same for the twist. So pose spring and limit spring of one direction are one row,
 //! and both are taken at the end of the step: no stiffness that a file can state makes them explode.
 //!
 //! Limits follow Shapiro et al. 2007, EQ4, in a form that does not jump at the limit: −k (e^{c v} − 1) − d θ̇ for a
@@ -26,7 +26,7 @@ pub(crate) struct LimitSpring {
 impl LimitSpring {
     /// For a body of this mass and stature: one and a half degrees beyond the limit balance about a fifth of m g h.
     pub fn of(mass_kg: f64, stature_m: f64) -> LimitSpring {
-        LimitSpring { strength: 0.05 * mass_kg * 9.81 * stature_m, sharpness: 60.0, damping_secs: 0.02 }
+        LimitSpring { strength: 0.05 * mass_kg * 9.81 * stature_m, sharpness: 60.0, damping_secs: 0.01 }
     }
 
     /// Stiffness \[N m/rad\] whose straight line through the limit has the exponential's torque at this violation \[rad\].
@@ -47,6 +47,13 @@ struct Row {
 }
 
 impl Row {
+    /// The drive's row. Its spring takes at least a step to close its error: an undamped one of any stiffness would be there within
+    /// a sub-step otherwise, with limbs at hundreds of metres a second. It changes nothing for springs that a step can follow.
+    fn of(drive: &Drive, error: f64, velocity: f64, step_secs: f64) -> Row {
+        let damping = drive.damping.max(drive.stiffness * step_secs);
+        Row { stiffness: drive.stiffness, damping, error, velocity: velocity * drive.damping / damping.max(1e-12) }
+    }
+
     /// Both springs as one.
     fn with_limit(self, limit: &LimitSpring, violation: f64) -> Row {
         if violation <= 0.0 {
@@ -63,32 +70,79 @@ impl Row {
     }
 }
 
+/// Where a joint is within its range: the axes, in the parent's frame, about which turning brings it to the edge of its
+/// swing and of its twist soonest, and how far it is beyond them \[rad, about those axes\].
+struct Reach {
+    swing_axis: DVec3,
+    swing_violation: f64,
+    twist_axis: DVec3,
+    twist_violation: f64,
+}
+
+impl Reach {
+    fn of(limit: &Limit, local: DQuat) -> Reach {
+        let (x, z, twist) = swing_twist(limit.centre.conjugate() * local);
+        let (swing, ratio) = ((x * x + z * z).sqrt(), limit.swing_ratio(x, z));
+        let (upright, bone) = (limit.centre * DVec3::Y, local * DVec3::Y);
+        // With a swing θ from the middle of the range (y) to the bone (b), the twist changes by ω·(y + b) / (1 + y·b), that is
+        // by the turn about their bisector over cos(θ/2). The bone's own axis is not it: a bone on its way round the
+        // cone turns about itself and keeps its twist.
+        let bisector = (upright + bone).try_normalize().unwrap_or_else(|| upright.any_orthonormal_vector());
+        let (violation, sign) = if twist - limit.twist.1 > limit.twist.0 - twist {
+            (twist - limit.twist.1, 1.0)
+        } else {
+            (limit.twist.0 - twist, -1.0)
+        };
+        let twist_violation = violation * bisector.dot(bone);
+        let twist_axis = bisector * sign;
+
+        // The swing grows about s = (x, 0, z) / θ; along the ellipse it goes by t = s × bisector, θ/2 / sin(θ/2) for each
+        // radian about -t. So the gradient of the ratio to the ellipse is an axis in their plane.
+        let outward = limit.centre * DVec3::new(x, 0.0, z);
+        let outward = outward - bisector * outward.dot(bisector);
+        let Some(outward) = outward.try_normalize().filter(|_| swing > 1e-6) else {
+            let swing_axis = bisector.any_orthonormal_vector();
+            return Reach { swing_axis, swing_violation: 0.0, twist_axis, twist_violation };
+        };
+        let (gradient_x, gradient_z) = swing_gradient(limit, x, z, ratio);
+        let radial = (gradient_x * x + gradient_z * z) / swing;
+        let tangential = (gradient_x * z - gradient_z * x) / swing;
+        let half = swing / 2.0;
+        let axis = outward * radial - outward.cross(bisector) * (tangential * half / libm::sin(half).max(1e-3));
+        let steepness = axis.length().max(1e-9);
+        Reach { swing_axis: axis / steepness, swing_violation: (ratio - 1.0) / steepness, twist_axis, twist_violation }
+    }
+}
+
+/// How the length of a swing relative to the ellipse's radius changes with its x and z.
+fn swing_gradient(limit: &Limit, x: f64, z: f64, ratio: f64) -> (f64, f64) {
+    let swing = &limit.swing;
+    let across = if x < 0.0 { swing.x_negative } else { swing.x_positive };
+    let along = if z < 0.0 { swing.z_negative } else { swing.z_positive };
+    let ratio = ratio.max(1e-9);
+    (x / (across * across * ratio), z / (along * along * ratio))
+}
+
 /// Writes a ball joint's rows. `local` is the present `parent_from_node`.
-pub(crate) fn write_ball(joint: &mut GenericJoint, limit: &Limit, spring: &LimitSpring, drive: &Drive, local: DQuat) {
-    let (x, z, twist) = swing_twist(limit.centre.conjugate() * local);
-    let swing = (x * x + z * z).sqrt();
-    let ratio = limit.swing_ratio(x, z);
-    let swing_violation = if ratio > 1.0 { swing * (1.0 - 1.0 / ratio) } else { 0.0 };
-    let (twist_violation, twist_sign) = if twist - limit.twist.1 > limit.twist.0 - twist {
-        (twist - limit.twist.1, 1.0)
-    } else {
-        (limit.twist.0 - twist, -1.0)
-    };
-    // Axes in the parent's frame: about which the swing grows, about which the twist does.
-    let twist_axis = local * DVec3::Y * twist_sign;
-    let swing_axis = limit.centre * DVec3::new(x, 0.0, z);
-    let swing_axis = swing_axis - twist_axis * swing_axis.dot(twist_axis);
-    let swing_axis = swing_axis.try_normalize().unwrap_or_else(|| twist_axis.any_orthonormal_vector());
-    let axes = DMat3::from_cols(swing_axis, twist_axis, swing_axis.cross(twist_axis));
+pub(crate) fn write_ball(
+    joint: &mut GenericJoint,
+    limit: &Limit,
+    spring: &LimitSpring,
+    drive: &Drive,
+    local: DQuat,
+    step_secs: f64,
+) {
+    let reach = Reach::of(limit, local);
+    let axes = DMat3::from_cols(reach.swing_axis, reach.twist_axis, reach.swing_axis.cross(reach.twist_axis));
     let frame = DQuat::from_mat3(&axes).normalize();
 
     // Turn from wanted to present, in the parent's axes, then in the rows'.
     let error = frame.conjugate() * log(local * drive.rotation.conjugate());
     let velocity = frame.conjugate() * (local * drive.velocity);
-    let row = |error: f64, velocity: f64| Row { stiffness: drive.stiffness, damping: drive.damping, error, velocity };
+    let row = |error: f64, velocity: f64| Row::of(drive, error, velocity, step_secs);
     let rows = [
-        row(error.x, velocity.x).with_limit(spring, swing_violation),
-        row(error.y, velocity.y).with_limit(spring, twist_violation),
+        row(error.x, velocity.x).with_limit(spring, reach.swing_violation),
+        row(error.y, velocity.y).with_limit(spring, reach.twist_violation),
         row(error.z, velocity.z),
     ];
     // With both frames equal now, the solver sees no angle at the step's start, and each row's target is its error.
@@ -97,10 +151,19 @@ pub(crate) fn write_ball(joint: &mut GenericJoint, limit: &Limit, spring: &Limit
     for (axis, row) in [JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ].into_iter().zip(rows) {
         set(joint, axis, -row.error, row);
     }
+    stop(joint, JointAxis::AngX, reach.swing_violation, 1.0);
+    stop(joint, JointAxis::AngY, reach.twist_violation, 1.0);
 }
 
 /// Writes a hinge's row, about X of both frames.
-pub(crate) fn write_hinge(joint: &mut GenericJoint, limit: &Limit, spring: &LimitSpring, drive: &Drive, local: DQuat) {
+pub(crate) fn write_hinge(
+    joint: &mut GenericJoint,
+    limit: &Limit,
+    spring: &LimitSpring,
+    drive: &Drive,
+    local: DQuat,
+    step_secs: f64,
+) {
     let angle_of = |rotation: DQuat| 2.0 * libm::atan2(rotation.x, rotation.w);
     let wrap = |angle: f64| {
         let turns = libm::round(angle / std::f64::consts::TAU);
@@ -111,18 +174,39 @@ pub(crate) fn write_hinge(joint: &mut GenericJoint, limit: &Limit, spring: &Limi
     let high = angle - limit.swing.x_positive;
     let low = -limit.swing.x_negative - angle;
     let wanted = wrap(angle_of(drive.rotation) - centre);
-    let row =
-        Row { stiffness: drive.stiffness, damping: drive.damping, error: angle - wanted, velocity: drive.velocity.x };
-    let row = if high > 0.0 {
-        row.with_limit(spring, high)
-    } else if low > 0.0 {
-        let mirrored = Row { error: -row.error, velocity: -row.velocity, ..row }.with_limit(spring, low);
-        Row { error: -mirrored.error, velocity: -mirrored.velocity, ..mirrored }
-    } else {
-        row
-    };
-    // The solver measures the angle from equal frames.
-    set(joint, JointAxis::AngX, angle_of(local) - row.error, row);
+    let row = Row::of(drive, angle - wanted, drive.velocity.x, step_secs);
+    let (sign, violation) = if high > low { (1.0, high) } else { (-1.0, low) };
+    let mirrored = Row { error: sign * row.error, velocity: sign * row.velocity, ..row }.with_limit(spring, violation);
+    let row = Row { error: sign * mirrored.error, velocity: sign * mirrored.velocity, ..mirrored };
+    // As with balls, the solver is to see no angle at the step's start; what is wrong about the locked axes stays.
+    let (sin, cos) = libm::sincos(angle_of(local) / 2.0);
+    joint.local_frame2.rotation = DQuat::from_xyzw(-sin, 0.0, 0.0, cos);
+    set(joint, JointAxis::AngX, -row.error, row);
+    stop(joint, JointAxis::AngX, violation, sign);
+}
+
+/// The stop behind a limit's spring, which ends what an impact drives through it within one step \[rad beyond the limit\]: a
+/// degree and a half, about where the spring bears a fifth of m g h.
+const STOP: f64 = 0.026;
+
+/// A stop is a row of the solver only when it is so near that a step can reach it \[rad\]: at 80 rad/s.
+const STOP_NEAR: f64 = 0.35;
+
+/// Half the range that a stop leaves, reached from no limit within a step \[rad\]. The solver takes the sine and cosine of half
+/// of it; here they lie so near to a float that every mathematics library gives the same bits.
+const STOP_RANGE: f64 = 1.46875;
+
+/// Stops a row's turn in the direction of `sign` where the limit's spring has given way.
+fn stop(joint: &mut GenericJoint, axis: JointAxis, violation: f64, sign: f64) {
+    let room = STOP - violation;
+    if room > STOP_NEAR {
+        joint.limit_axes.remove(JointAxesMask::from(axis));
+        return;
+    }
+    // In steps that add up without rounding, so that the middle of the range is the constant.
+    let room = libm::round(room.max(-1.0) * 1048576.0) / 1048576.0;
+    let (near, far) = (sign * room, sign * (-2.0 * STOP_RANGE - room));
+    joint.set_limits(axis, [near.min(far), near.max(far)]);
 }
 
 fn set(joint: &mut GenericJoint, axis: JointAxis, target: f64, row: Row) {

@@ -2,7 +2,7 @@
 
 use crate::engine::{Engine, tag};
 use crate::solid::Form;
-use crate::{Entity, Motion, PropSpec, SpecError};
+use crate::{Entity, Motion, PropSpec, SpecError, sound};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 
@@ -15,10 +15,15 @@ pub(crate) struct Prop {
 
 impl Prop {
     pub fn build(engine: &mut Engine, spec: PropSpec, index: usize) -> Result<Prop, SpecError> {
-        let places = [spec.position, spec.velocity, spec.spin, spec.solid.centre];
-        if !(places.iter().all(|place| place.is_finite()) && spec.rotation.is_finite()) {
+        let (Some(rotation), Some(velocity), Some(spin), Some(gravity_scale)) = (
+            sound::unit(spec.rotation).filter(|_| sound::is_place(spec.position)),
+            sound::velocity(spec.velocity),
+            sound::spin(spec.spin),
+            sound::gravity_scale(spec.gravity_scale),
+        ) else {
             return Err(SpecError::NotFinite);
-        }
+        };
+        let surface = sound::surface(spec.surface);
         let shape = spec.solid.shape().ok_or(SpecError::NoShape)?;
         let (kind, mass) = match spec.motion {
             Motion::Fixed => (RigidBodyType::Fixed, None),
@@ -28,20 +33,20 @@ impl Prop {
         if mass.is_some() && matches!(spec.solid.form, Form::Mesh { .. }) {
             return Err(SpecError::HollowMesh);
         }
-        if mass.is_some_and(|mass| !(mass > 0.0 && mass.is_finite())) {
+        if mass.is_some_and(|mass| !(1e-6..1e9).contains(&mass)) {
             return Err(SpecError::NoMass("a dynamic prop"));
         }
         let rigid = RigidBodyBuilder::new(kind)
-            .pose(Pose::from_parts(spec.position, spec.rotation.normalize()))
-            .linvel(spec.velocity)
-            .angvel(spec.spin)
+            .pose(Pose::from_parts(spec.position, rotation))
+            .linvel(velocity)
+            .angvel(spin)
             .ccd_enabled(mass.is_some())
-            .gravity_scale(spec.gravity_scale);
+            .gravity_scale(gravity_scale);
         let handle = engine.bodies.insert(rigid);
         let mut collider = ColliderBuilder::new(shape)
             .position(spec.solid.placement())
-            .friction(spec.surface.friction)
-            .restitution(spec.surface.bounce)
+            .friction(surface.friction)
+            .restitution(surface.bounce)
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .sensor(spec.is_sensor)
             .user_data(tag(Entity::Prop(index)));
@@ -61,7 +66,8 @@ impl Prop {
         if self.acceleration != DVec3::ZERO
             && let Some(body) = engine.bodies.get_mut(self.handle)
         {
-            body.set_linvel(body.linvel() + self.acceleration * step_secs, true);
+            let velocity = body.linvel() + self.acceleration * step_secs;
+            body.set_linvel(velocity.clamp_length_max(sound::MAX_SPEED_M_S), true);
         }
     }
 }

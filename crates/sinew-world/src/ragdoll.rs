@@ -7,7 +7,7 @@
 use crate::character::Character;
 use crate::engine::Engine;
 use crate::solid::Form;
-use crate::{CharacterSpec, Drive, Entity, Solid, SpecError, Surface};
+use crate::{CharacterSpec, Drive, Entity, Solid, SpecError, Surface, sound};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node, Pose as BodyPose};
@@ -98,8 +98,17 @@ pub(crate) fn part_inertia(body: &Body, node: Node) -> DVec3 {
 }
 
 pub(crate) fn build(engine: &mut Engine, spec: &CharacterSpec, index: usize) -> Result<Character, SpecError> {
-    if !spec.pose.is_finite() || !spec.velocity.is_finite() {
+    let body = &spec.body;
+    if let Some(node) = sound::faulty_part(body) {
+        return Err(SpecError::NoMass(node.part().name()));
+    }
+    let Some(velocity) = sound::velocity(spec.velocity).filter(|_| sound::is_place(spec.pose.hips_position)) else {
         return Err(SpecError::NotFinite);
+    };
+    let mut spec = spec.clone();
+    spec.surface = sound::surface(spec.surface);
+    for rotation in &mut spec.pose.world {
+        *rotation = sound::unit(*rotation).ok_or(SpecError::NotFinite)?;
     }
     let body = &spec.body;
     let positions = spec.pose.positions(body);
@@ -107,13 +116,10 @@ pub(crate) fn build(engine: &mut Engine, spec: &CharacterSpec, index: usize) -> 
     let mut colliders = [ColliderHandle::invalid(); Node::COUNT];
     for node in Node::ALL {
         let link = body.link(node);
-        if !(link.mass_kg > 0.0) {
-            return Err(SpecError::NoMass(node.part().name()));
-        }
         let mass = MassProperties::new(link.centre, link.mass_kg, part_inertia(body, node));
         let rigid = RigidBodyBuilder::dynamic()
             .pose(Pose::from_parts(positions[node.index()], spec.pose.world[node.index()]))
-            .linvel(spec.velocity)
+            .linvel(velocity)
             .additional_mass_properties(mass);
         let handle = engine.bodies.insert(rigid);
         let solid = part_solid(body, node);
@@ -138,7 +144,7 @@ pub(crate) fn build(engine: &mut Engine, spec: &CharacterSpec, index: usize) -> 
     }
     let outboard = outboard_inertias(body);
     let drives = std::array::from_fn(|at| Drive::limp(LIMP_DAMPING * outboard[at]));
-    Ok(Character::new(spec.clone(), bodies, colliders, joints, drives, outboard))
+    Ok(Character::new(spec, bodies, colliders, joints, drives, outboard))
 }
 
 /// A hinge's other two axes.
@@ -168,7 +174,9 @@ pub fn never_collide(body: &Body) -> Vec<(Node, Node)> {
     let positions = pose.positions(body);
     let place = |node: Node| {
         let solid = part_solid(body, node);
-        solid.shape().map(|shape| (shape, Pose::from_parts(positions[node.index()], DQuat::IDENTITY) * solid.placement()))
+        solid
+            .shape()
+            .map(|shape| (shape, Pose::from_parts(positions[node.index()], DQuat::IDENTITY) * solid.placement()))
     };
     let mut pairs = Vec::new();
     for one in Node::ALL {

@@ -78,11 +78,14 @@ impl Solid {
     }
 
     pub(crate) fn placement(&self) -> Placement {
-        Placement::from_parts(self.centre, self.rotation)
+        Placement::from_parts(self.centre, self.rotation.normalize())
     }
 
-    /// `None` for a hull or a mesh that is none.
+    /// `None` for a hull or a mesh that is none, and for sizes that are not above 0 or beyond all bounds.
     pub(crate) fn shape(&self) -> Option<SharedShape> {
+        if !crate::sound::is_solid(self) {
+            return None;
+        }
         Some(match &self.form {
             Form::Ball { radius_m } => SharedShape::ball(*radius_m),
             Form::Box { size_m } => SharedShape::cuboid(size_m.x / 2.0, size_m.y / 2.0, size_m.z / 2.0),

@@ -74,16 +74,22 @@ impl PropSpec {
 /// Why something cannot be put into a world.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpecError {
-    /// Numbers that are not finite.
-    #[error("a place or velocity is not a finite number")]
+    /// Numbers that are not finite, or beyond the world's bounds.
+    #[error("a place, rotation or velocity is not a finite number, or farther than 10 km from the origin")]
     NotFinite,
     /// A mesh without triangles, or hull points in a plane.
-    #[error("the shape has no volume or no triangles; give a hull four points that do not lie in a plane")]
+    #[error(
+        "the shape has no volume or no triangles, or a size that is not between 0.1 mm and 10 km; \
+         give a hull four points that do not lie in a plane"
+    )]
     NoShape,
+    /// Too many shapes were added to a character.
+    #[error("the character has as many added shapes as it can have; remove one first")]
+    TooManyShapes,
     /// A dynamic triangle mesh.
     #[error("a mesh of triangles has no inside and cannot be dynamic; make it fixed, or use its hull")]
     HollowMesh,
-    /// A character's part without mass.
-    #[error("{0} has no mass")]
+    /// A mass, size or inertia that is not above 0, or beyond all bounds.
+    #[error("{0} has no mass or no size, or one that is not a sound number")]
     NoMass(&'static str),
 }

@@ -2,6 +2,7 @@
 
 use crate::engine::untag;
 use crate::frame::{BodyState, CharacterFrame, Contact, Entity};
+use crate::sound::is_place;
 use crate::support::keep_hull;
 use crate::{World, ragdoll};
 use glam::{DQuat, DVec3};
@@ -17,19 +18,24 @@ pub(crate) struct Watch {
     hull: Vec<DVec3>,
 }
 
-/// Farther from the origin than this a body has gone wrong \[m\].
-const FARTHEST_M: f64 = 1e4;
-
 /// A contact whose normal is this upright carries \[1\].
 const CARRYING: f64 = 0.5;
 
 impl World {
-    /// Reads the frame.
-    pub(crate) fn look(&mut self) {
+    /// Brings what was added into the frame; what was there before stays as the last step left it.
+    pub(crate) fn look_at_new(&mut self) {
         while self.frame.characters.len() < self.characters.len() {
             self.frame.characters.push(CharacterFrame::EMPTY);
+            self.look_at_character(self.frame.characters.len() - 1);
         }
-        self.frame.props.resize(self.props.len(), BodyState::REST);
+        while self.frame.props.len() < self.props.len() {
+            self.frame.props.push(BodyState::REST);
+            self.look_at_prop(self.frame.props.len() - 1);
+        }
+    }
+
+    /// Reads the frame.
+    pub(crate) fn look(&mut self) {
         for index in 0..self.characters.len() {
             self.look_at_character(index);
         }
@@ -39,11 +45,12 @@ impl World {
         self.look_at_contacts();
     }
 
-    fn look_at_character(&mut self, index: usize) {
+    pub(crate) fn look_at_character(&mut self, index: usize) {
         let character = &self.characters[index];
-        let sound = character.bodies.iter().all(|&handle| {
-            self.engine.bodies.get(handle).is_some_and(|body| body.is_enabled() && is_sound(body))
-        });
+        let sound = character
+            .bodies
+            .iter()
+            .all(|&handle| self.engine.bodies.get(handle).is_some_and(|body| body.is_enabled() && is_sound(body)));
         self.frame.characters[index].was_reset = !sound;
         if !sound {
             self.put_back(index);
@@ -235,6 +242,11 @@ impl World {
         })
     }
 
+    /// Moments of inertia of a part about its centre of mass, along its axes, as the world uses them \[kg m²\].
+    pub fn part_inertia(&self, character: usize, node: Node) -> DVec3 {
+        self.body(character).map_or(DVec3::ZERO, |body| ragdoll::part_inertia(body, node))
+    }
+
     /// Moment of inertia of what hangs from a joint, about it, standing \[kg m²\].
     pub fn outboard_inertia(&self, character: usize, node: Node) -> f64 {
         self.characters.get(character).map_or_else(
@@ -270,8 +282,5 @@ fn state_of(body: &RigidBody) -> BodyState {
 
 fn is_sound(body: &RigidBody) -> bool {
     let rotation: DQuat = *body.rotation();
-    body.translation().abs().max_element() < FARTHEST_M
-        && rotation.is_finite()
-        && body.linvel().is_finite()
-        && body.angvel().is_finite()
+    is_place(body.translation()) && rotation.is_finite() && body.linvel().is_finite() && body.angvel().is_finite()
 }

@@ -5,7 +5,7 @@ use crate::character::{Character, Hold};
 use crate::engine::{Engine, tag};
 use crate::prop::Prop;
 use crate::watch::Watch;
-use crate::{CharacterSpec, Drive, Frame, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll};
+use crate::{CharacterSpec, Drive, Frame, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll, sound};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node};
@@ -42,8 +42,9 @@ pub struct World {
 }
 
 impl World {
-    /// An empty world with its floor.
+    /// An empty world with its floor. Settings out of their bounds are brought into them.
     pub fn new(settings: WorldSettings) -> World {
+        let settings = sound::settings(settings);
         World {
             settings,
             engine: Engine::new(&settings),
@@ -63,12 +64,12 @@ impl World {
     /// Makes a ragdoll of a body; its joints hang until they are driven. Returns its number.
     ///
     /// # Errors
-    /// When a place is not finite or a part has no mass.
+    /// When a place is not finite or a part has no mass or size.
     pub fn add_character(&mut self, spec: CharacterSpec) -> Result<usize, SpecError> {
         let index = self.characters.len();
         let character = ragdoll::build(&mut self.engine, &spec, index)?;
         self.characters.push(character);
-        self.look();
+        self.look_at_new();
         Ok(index)
     }
 
@@ -79,7 +80,7 @@ impl World {
     pub fn add_prop(&mut self, spec: PropSpec) -> Result<usize, SpecError> {
         let index = self.props.len();
         self.props.push(Prop::build(&mut self.engine, spec, index)?);
-        self.look();
+        self.look_at_new();
         Ok(index)
     }
 
@@ -119,14 +120,11 @@ impl World {
     /// Holds a joint from now on. Numbers that are not finite, or negative gains, let it go limp instead.
     pub fn set_drive(&mut self, character: usize, node: Node, drive: Drive) {
         let Some(character) = self.characters.get_mut(character) else { return };
-        let finite = drive.rotation.is_finite() && drive.velocity.is_finite() && drive.torque.is_finite();
-        let sound = (0.0..1e9).contains(&drive.stiffness) && (0.0..1e9).contains(&drive.damping);
         let outboard = character.outboard[node.index()];
-        let drive = if finite && sound { drive } else { Drive::limp(ragdoll::LIMP_DAMPING * outboard) };
+        let drive = sound::drive(drive).unwrap_or(Drive::limp(ragdoll::LIMP_DAMPING * outboard));
         if drive != character.drives[node.index()] {
             character.drives[node.index()] = drive;
-            let springy = character.drives.iter().any(|drive| drive.stiffness > 0.0);
-            character.keep_awake(&mut self.engine, springy);
+            character.hold_changed(&mut self.engine);
         }
     }
 
@@ -137,31 +135,24 @@ impl World {
             character.drives[at] = Drive::limp(ragdoll::LIMP_DAMPING * character.outboard[at]);
             character.pins[at] = None;
         }
-        character.keep_awake(&mut self.engine, false);
+        character.hold_changed(&mut self.engine);
     }
 
     /// Holds a part to a place in the world, or lets it go with `None`.
     pub fn set_pin(&mut self, character: usize, node: Node, pin: Option<Pin>) {
         let Some(character) = self.characters.get_mut(character) else { return };
-        let sound = |pin: &Pin| {
-            pin.position.is_finite()
-                && pin.rotation.is_finite()
-                && pin.velocity.is_finite()
-                && pin.angular_velocity.is_finite()
-                && pin.stiffness >= 0.0
-                && pin.damping >= 0.0
-                && pin.stiffness + pin.damping < 1e9
-        };
-        character.pins[node.index()] = pin.filter(sound);
+        let pin = pin.and_then(sound::pin);
+        if pin != character.pins[node.index()] {
+            character.pins[node.index()] = pin;
+            character.hold_changed(&mut self.engine);
+        }
     }
 
     /// Moves a part to a place by the end of the next step, whatever is in its way; it stays so until
     /// [`World::set_forces`] frees it.
     pub fn move_part(&mut self, character: usize, node: Node, position: DVec3, rotation: DQuat) {
         let Some(character) = self.characters.get_mut(character) else { return };
-        if !(position.is_finite() && rotation.is_finite()) {
-            return;
-        }
+        let Some(rotation) = sound::unit(rotation).filter(|_| sound::is_place(position)) else { return };
         character.holds[node.index()] = Hold::Told;
         if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
             if body.body_type() != RigidBodyType::KinematicPositionBased {
@@ -202,10 +193,10 @@ impl World {
 
     fn push_body(&mut self, handle: RigidBodyHandle, force: DVec3, point: Option<DVec3>) {
         if let Some(body) = self.engine.bodies.get_mut(handle)
-            && force.is_finite()
+            && let Some(force) = sound::force(force)
         {
-            let point = point.filter(|point| point.is_finite()).unwrap_or_else(|| body.center_of_mass());
-            body.add_force_at_point(force.clamp_length_max(MAX_FORCE_N), point, true);
+            let point = point.filter(|&point| sound::is_place(point)).unwrap_or_else(|| body.center_of_mass());
+            body.add_force_at_point(force, point, true);
         }
     }
 
@@ -225,9 +216,7 @@ impl World {
     /// Factor on gravity for a character.
     pub fn set_gravity(&mut self, character: usize, scale: f64) {
         let Some(character) = self.characters.get_mut(character) else { return };
-        if !scale.is_finite() {
-            return;
-        }
+        let Some(scale) = sound::gravity_scale(scale) else { return };
         character.gravity_scale = scale;
         for handle in character.bodies {
             if let Some(body) = self.engine.bodies.get_mut(handle) {
@@ -250,9 +239,10 @@ impl World {
             PartShape::Other(solid) => Some(solid),
             PartShape::None => None,
         };
+        let form = solid.map(|solid| solid.shape().ok_or(SpecError::NoShape)).transpose()?;
         collider.set_enabled(solid.is_some());
-        if let Some(solid) = solid {
-            collider.set_shape(solid.shape().ok_or(SpecError::NoShape)?);
+        if let (Some(solid), Some(form)) = (solid, form) {
+            collider.set_shape(form);
             collider.set_position_wrt_parent(solid.placement());
             collider.user_data = tag(crate::Entity::Part(character, node));
         }
@@ -262,14 +252,30 @@ impl World {
         Ok(())
     }
 
+    /// Adds a turning of the whole character about its centre of mass, as if it were one rigid body \[rad/s\].
+    pub fn spin_character(&mut self, character: usize, spin: DVec3) {
+        let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.characters.get(character)) else {
+            return;
+        };
+        let Some(spin) = sound::spin(spin) else { return };
+        for node in Node::ALL {
+            if let Some(body) = self.engine.bodies.get_mut(one.bodies[node.index()]) {
+                let arm = frame.part(node).centre - frame.centre_of_mass;
+                body.set_linvel(body.linvel() + spin.cross(arm), true);
+                body.set_angvel(body.angvel() + spin, true);
+            }
+        }
+        self.look_at_character(character);
+    }
+
     /// Puts a prop somewhere else, or gives it another velocity.
     pub fn place_prop(&mut self, prop: usize, position: Option<DVec3>, velocity: Option<DVec3>) {
         let Some(prop) = self.props.get_mut(prop) else { return };
         if let Some(body) = self.engine.bodies.get_mut(prop.handle) {
-            if let Some(position) = position.filter(|place| place.is_finite()) {
+            if let Some(position) = position.filter(|&place| sound::is_place(place)) {
                 body.set_translation(position, true);
             }
-            if let Some(velocity) = velocity.filter(|velocity| velocity.is_finite()) {
+            if let Some(velocity) = velocity.and_then(sound::velocity) {
                 body.set_linvel(velocity, true);
             }
         }
@@ -279,7 +285,7 @@ impl World {
     pub fn accelerate_prop(&mut self, prop: usize, acceleration: DVec3) {
         if let Some(prop) = self.props.get_mut(prop)
             && prop.spec.motion == Motion::Moving
-            && acceleration.is_finite()
+            && let Some(acceleration) = sound::force(acceleration)
         {
             prop.acceleration = acceleration;
         }
@@ -288,7 +294,7 @@ impl World {
     /// Factor on gravity for a prop.
     pub fn set_prop_gravity(&mut self, prop: usize, scale: f64) {
         if let Some(prop) = self.props.get(prop)
-            && scale.is_finite()
+            && let Some(scale) = sound::gravity_scale(scale)
             && let Some(body) = self.engine.bodies.get_mut(prop.handle)
         {
             body.set_gravity_scale(scale, true);
