@@ -157,7 +157,10 @@ impl Out {
         for path in &self.output {
             output::make_folder(path)?;
             if is_csv(path) {
-                output::write_bytes(path, csv(recording).as_bytes())?;
+                if self.character.is_some() {
+                    self.one_of(ran, path)?;
+                }
+                output::write_bytes(path, csv(recording, self.character.as_deref()).as_bytes())?;
                 continue;
             }
             let shows_scene = self.character.is_none() && matches!(Format::of(path), Some(Format::Glb | Format::Gltf));

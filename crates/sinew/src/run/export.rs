@@ -166,20 +166,23 @@ fn boxed(size: DVec3) -> Vec<(DVec3, DVec3, f64)> {
 /// Rounding of a shown box's edges, relative to its longest edge \[1\].
 const EDGE_SHARE: f64 = 0.06;
 
-/// A recording as a table: time, then place and rotation of every body, one row a frame.
-pub fn csv(recording: &Recording) -> String {
+/// A recording as a table: time, then place and rotation of every body, one row a frame; of one character alone when `only` names
+/// it.
+pub fn csv(recording: &Recording, only: Option<&str>) -> String {
+    let characters = || recording.characters.iter().filter(|one| only.is_none_or(|name| one.name == name));
+    let props = || recording.props.iter().filter(|_| only.is_none());
     let mut text = String::from("time_s");
     let mut head = |name: &str| {
         for column in ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"] {
             let _ = write!(text, ",{name}.{column}");
         }
     };
-    for character in &recording.characters {
+    for character in characters() {
         for node in Node::ALL {
             head(&format!("{}.{}", character.name, node.part().name()));
         }
     }
-    for prop in &recording.props {
+    for prop in props() {
         head(&prop.name);
     }
     text.push('\n');
@@ -190,14 +193,14 @@ pub fn csv(recording: &Recording) -> String {
                 let _ = write!(text, ",{value:.9}");
             }
         };
-        for character in &recording.characters {
+        for character in characters() {
             let pose = &character.poses[frame];
             let positions = pose.positions(&character.body);
             for node in Node::ALL {
                 body(positions[node.index()], pose.world[node.index()]);
             }
         }
-        for prop in &recording.props {
+        for prop in props() {
             let (position, rotation) = prop.places[frame];
             body(position, rotation);
         }
