@@ -93,7 +93,8 @@ pub(crate) const MOST_ROWS: usize = 2 * UPPER_NODES;
 const HEAVIEST: f64 = 1e5;
 
 fn push(row: Row<f64>, rows: &mut Vec<Row<f64>>) {
-    let finite = row.wanted.is_finite() && row.weight.is_finite() && row.direction.iter().all(|value| value.is_finite());
+    let finite =
+        row.wanted.is_finite() && row.weight.is_finite() && row.direction.iter().all(|value| value.is_finite());
     let reaches = row.direction.iter().any(|&value| value != 0.0);
     if finite && reaches && row.weight > 0.0 && rows.len() < MOST_ROWS {
         rows.push(Row { weight: row.weight.min(HEAVIEST), ..row });

@@ -30,8 +30,7 @@ impl Felt {
         let counts = |other: Entity| match other {
             Entity::Floor => false,
             Entity::Prop(prop) => {
-                ground != Some(prop)
-                    && !world.held().any(|held| held.character == character && held.object == other)
+                ground != Some(prop) && !world.held().any(|held| held.character == character && held.object == other)
             }
             Entity::Part(owner, _) => owner != character,
         };

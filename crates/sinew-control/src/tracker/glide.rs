@@ -25,9 +25,7 @@ struct Cubic {
 impl Cubic {
     fn at(&self, fraction: f64) -> DVec3 {
         let (t, t2, t3) = (fraction, fraction * fraction, fraction * fraction * fraction);
-        self.value * (3.0 * t2 - 2.0 * t3)
-            + self.slopes[0] * (t3 - 2.0 * t2 + t)
-            + self.slopes[1] * (t3 - t2)
+        self.value * (3.0 * t2 - 2.0 * t3) + self.slopes[0] * (t3 - 2.0 * t2 + t) + self.slopes[1] * (t3 - t2)
     }
 }
 

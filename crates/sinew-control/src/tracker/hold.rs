@@ -56,6 +56,17 @@ impl Hold {
         Hold { grip, before: now, now }
     }
 
+    /// At rest in another pose.
+    pub(crate) fn restart(&mut self, body: &Body, pose: &Pose) {
+        self.now = Instant::of(body, pose);
+        self.before = self.now;
+    }
+
+    /// Holds more or less firmly from now on.
+    pub(crate) fn set_grip(&mut self, grip: Grip) {
+        self.grip = grip;
+    }
+
     /// Sets the pins of a character so that it is in `next` at the end of the world's next step.
     pub(crate) fn carry_to(&mut self, next: &Pose, ground: &GroundMotion, world: &mut World, character: usize) {
         let step_secs = world.settings().step_secs();
@@ -72,7 +83,8 @@ impl Hold {
         for node in Node::ALL {
             let at = node.index();
             let (back, on) = (turn(&self.before, &self.now, at), turn(&self.now, &next, at));
-            let (behind, ahead) = (self.now.centres[at] - self.before.centres[at], next.centres[at] - self.now.centres[at]);
+            let (behind, ahead) =
+                (self.now.centres[at] - self.before.centres[at], next.centres[at] - self.now.centres[at]);
             let velocity = (behind + ahead) / (2.0 * step_secs) + ground.velocity;
             let acceleration = (ahead - behind) / (step_secs * step_secs) + ground.acceleration;
             spins[at] = (back + on) / (2.0 * step_secs);

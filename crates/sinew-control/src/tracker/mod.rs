@@ -8,6 +8,7 @@ mod hold;
 mod kinematic;
 mod pd;
 mod response;
+mod tasks;
 
 pub use gains::{Gains, JointGain};
 pub use hold::Grip;

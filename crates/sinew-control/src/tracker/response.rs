@@ -9,6 +9,7 @@ use super::clock::Clock;
 use super::felt::Felt;
 use super::glide::Glide;
 use super::hold::{Grip, GroundMotion, Hold};
+use super::tasks::Tasks;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_response::{Basis, PointForce, Response, Settings};
@@ -31,6 +32,7 @@ pub struct ResponseTracker {
     wanted: Pose,
     felt: Felt,
     forces: Vec<PointForce>,
+    tasks: Tasks,
     platform: Option<Platform>,
 }
 
@@ -62,8 +64,21 @@ impl ResponseTracker {
             wanted: *first,
             felt: Felt::default(),
             forces: Vec::with_capacity(Node::COUNT),
+            tasks: Tasks::none(),
             platform: None,
         }
+    }
+
+    /// Forgets what was and goes on from a motion that went from `before` to `now`, one motion frame apart: after a cut, or when
+    /// the body was moved by something else. Tasks and platform stay.
+    pub fn restart(&mut self, before: &Pose, now: &Pose) {
+        self.response.restart(before, now);
+        self.glide = Glide::rest(before);
+        self.glide.next(now);
+        self.hold.restart(self.response.body(), now);
+        self.clock = Clock::new(self.clock.time_step_secs());
+        self.felt = Felt::default();
+        self.wanted = *now;
     }
 
     /// Whether the next step of physics begins a motion frame.
@@ -87,6 +102,23 @@ impl ResponseTracker {
         });
     }
 
+    /// Keeps what is upright in a part now upright, such as a cup in a hand: as well as the joints allow while the motion goes
+    /// on. `None` lets it go with the motion again.
+    pub fn keep_upright(&mut self, node: Option<Node>) {
+        self.tasks.keep_upright(node, self.glide.end());
+    }
+
+    /// The part that is kept upright, and which of its axes points up.
+    pub fn upright(&self) -> Option<(Node, DVec3)> {
+        self.tasks.upright()
+    }
+
+    /// Keeps trunk, head and arms clear of these props, by their numbers, as far as the motion allows; where it does not,
+    /// they touch. Legs and hips go where the motion takes them.
+    pub fn avoid(&mut self, props: &[usize]) {
+        self.tasks.avoid(props);
+    }
+
     /// Reads the contacts of the world's last step, and says where every part is to be held in its next one.
     pub fn physics_step(&mut self, world: &mut World, character: usize) {
         self.felt.add(world, character, self.platform.map(|platform| platform.prop));
@@ -94,21 +126,22 @@ impl ResponseTracker {
         let ground = self.ground(world, step_secs);
         if self.clock.is_due() {
             self.clock.begin_frame();
-            self.begin_frame(ground.velocity);
+            self.begin_frame(&ground, world);
         }
         let next = self.glide.at(self.clock.advance(step_secs));
         self.hold.carry_to(&next, &ground, world, character);
     }
 
-    fn begin_frame(&mut self, ground_velocity: DVec3) {
+    fn begin_frame(&mut self, ground: &GroundMotion, world: &World) {
         let frame_secs = self.clock.time_step_secs();
         self.felt.take(frame_secs, &mut self.forces);
         let mut acceleration = DVec3::ZERO;
         if let Some(platform) = &mut self.platform {
-            acceleration = (ground_velocity - platform.frame_velocity) / frame_secs;
-            platform.frame_velocity = ground_velocity;
+            acceleration = (ground.velocity - platform.frame_velocity) / frame_secs;
+            platform.frame_velocity = ground.velocity;
         }
-        let mut pose = self.response.step_on_moving_ground(&self.wanted, &self.forces, acceleration);
+        let tasks = self.tasks.of(self.glide.end(), self.response.body(), ground.shift, world);
+        let mut pose = self.response.step_with_tasks(&self.wanted, &self.forces, acceleration, tasks);
         // The world knows better where its platform is.
         pose.hips_position -= self.response.deviation().ground_shift;
         self.glide.next(&pose);
@@ -135,6 +168,11 @@ impl ResponseTracker {
     /// The response, to see what it does.
     pub fn response(&self) -> &Response {
         &self.response
+    }
+
+    /// Holds the parts more or less firmly than [`Grip::RESPONSE`].
+    pub fn set_grip(&mut self, grip: Grip) {
+        self.hold.set_grip(grip);
     }
 
     /// Lets all parts go.

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "tests and example use a part each")]
 
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction};
+use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, log};
 use sinew_control::tracker::ResponseTracker;
 use sinew_motion::formats::{MotionFile, ReadOptions};
 use sinew_motion::{find_cycle, repeat};
@@ -81,7 +81,11 @@ pub struct Scene {
 
 impl Scene {
     pub fn new(walk: &Walk) -> Scene {
-        let mut world = World::new(WorldSettings::default());
+        Scene::in_world(walk, WorldSettings::default())
+    }
+
+    pub fn in_world(walk: &Walk, settings: WorldSettings) -> Scene {
+        let mut world = World::new(settings);
         let first = *walk.pose(0);
         let velocity = (walk.pose(6).hips_position - first.hips_position).with_y(0.0) * 10.0;
         let spec = CharacterSpec { body: walk.body.clone(), pose: first, velocity, surface: Surface::BODY };
@@ -108,6 +112,13 @@ impl Scene {
         }
     }
 
+    /// Motion frames until one is reached.
+    pub fn frames_until(&mut self, frame: usize) {
+        while self.frame < frame {
+            self.frame();
+        }
+    }
+
     /// The wanted pose of now, after [`Scene::frame`].
     pub fn wanted(&self) -> &Pose {
         self.walk.pose(self.frame)
@@ -125,6 +136,12 @@ impl Scene {
     }
 }
 
+/// How far a joint is from where a pose has it \[degrees\].
+pub fn angle_deg(ours: &Pose, theirs: &Pose, node: Node) -> f64 {
+    log(theirs.local(node).conjugate() * ours.local(node)).length().to_degrees()
+}
+
+/// A ball that flies straight.
 pub fn ball(mass_kg: f64, radius_m: f64, bounce: f64, position: DVec3, velocity: DVec3) -> PropSpec {
     let solid = Solid::new(Form::Ball { radius_m });
     let mut spec = PropSpec::new(solid, sinew_world::Motion::Dynamic { mass_kg }, position);

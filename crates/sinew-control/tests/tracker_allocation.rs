@@ -1,0 +1,56 @@
+//! A responding tracker's step allocates nothing: a counting allocator says so.
+#![allow(unsafe_code, reason = "a global allocator is unsafe to implement; it only counts and passes on")]
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
+mod walker;
+
+use glam::DVec3;
+use sinew_body::humanoid::Node;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use walker::{Scene, Walk, ball};
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.with(|count| count.set(count.get() + 1));
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_responding_trackers_step_allocates_nothing() {
+    let walk = Walk::new(4, false);
+    let mut scene = Scene::new(&walk);
+    let target = walk.centres(walk.pose(30))[Node::Head.index()];
+    let spec = ball(1.0, 0.1, 0.3, target + DVec3::Z * 3.0, DVec3::Z * -6.0);
+    let prop = scene.world.add_prop(spec).unwrap();
+    scene.tracker.keep_upright(Some(Node::RightHand));
+    scene.tracker.avoid(&[prop]);
+    let (mut count, mut felt) = (0, 0);
+    for _ in 0..240 {
+        if scene.tracker.wants_pose() {
+            scene.frame += 1;
+            scene.tracker.wanted(walk.pose(scene.frame));
+        }
+        let before = COUNT.with(Cell::get);
+        scene.tracker.physics_step(&mut scene.world, 0);
+        count += COUNT.with(Cell::get) - before;
+        felt += scene.tracker.forces().len();
+        scene.world.step();
+    }
+    assert!(felt > 0, "the ball hits");
+    assert_eq!(count, 0);
+}
