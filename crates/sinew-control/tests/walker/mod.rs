@@ -43,7 +43,7 @@ impl Walk {
         let lowest = poses.iter().map(|pose| sole_height(&body, pose)).fold(f64::INFINITY, f64::min);
         let last = poses.len() - 1;
         let across = poses[last].hips_position - poses[0].hips_position;
-        let turn = DQuat::from_rotation_y(-f64::atan2(across.x, across.z));
+        let turn = DQuat::from_rotation_y(-libm::atan2(across.x, across.z));
         let start = poses[0].hips_position.with_y(lowest);
         let speed = across.with_y(0.0).length() / last as f64;
         for (frame, pose) in poses.iter_mut().enumerate() {
