@@ -147,8 +147,8 @@ fn boxed(size: DVec3) -> Vec<(DVec3, DVec3, f64)> {
             continue;
         }
         let sides: &[f64] = if reach[normal] == 0.0 { &[0.0] } else { &[-1.0, 1.0] };
-        // A radius and a half apart, so that the surface looks closed.
-        let gaps = ((2.0 * reach[across] / (1.5 * radius)).ceil() as usize).clamp(usize::from(reach[across] > 0.0), 60);
+        // A radius apart, so that the surface looks closed.
+        let gaps = ((2.0 * reach[across] / radius).ceil() as usize).clamp(usize::from(reach[across] > 0.0), 60);
         for side in sides {
             for bar in 0..=gaps {
                 let at = if gaps == 0 { 0.0 } else { 2.0 * bar as f64 / gaps as f64 - 1.0 };
