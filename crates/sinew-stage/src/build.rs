@@ -67,6 +67,9 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
             surface,
         };
         world.add_character(in_world).map_err(|error| wrong(place(), error.to_string()))?;
+        if spec.spin_rad_s != [0.0; 3] {
+            world.spin_character(index, spec.spin_rad_s.into());
+        }
         let mut actor =
             Actor::new(index, cut.body, poses, graphs, pose, &joints, world.settings().step_secs());
         actor.motion = cut.motion;

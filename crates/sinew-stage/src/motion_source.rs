@@ -81,7 +81,9 @@ impl MotionSource {
         poses.truncate(wanted);
         let first = ((start_secs * hz).round() as usize).min(poses.len().saturating_sub(1));
         let Some(start) = poses.get(first).copied() else { return Err("the clip has no frames".to_owned()) };
-        let forward = start.world[0] * DVec3::Z;
+        // Hips swing as they walk: where they face is their mean over a second.
+        let second = &poses[first..(first + hz.ceil() as usize).min(poses.len())];
+        let forward: DVec3 = second.iter().map(|pose| pose.world[0] * DVec3::Z).sum();
         let wanted = heading(spec.facing_deg);
         let turn = DQuat::from_rotation_y(libm::atan2(wanted.x, wanted.z) - libm::atan2(forward.x, forward.z));
         let place = DVec3::from(spec.position_m);

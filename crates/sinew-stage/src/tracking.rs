@@ -76,6 +76,17 @@ impl Stage {
                 let prop = |name: &String| self.cast.prop(name).ok_or_else(|| format!("no prop `{name}`"));
                 let stands_on = spec.response.stands_on.as_ref().map(prop).transpose()?;
                 tracker.stand_on(&self.world, stands_on);
+                if let Some(motion) = &actor.motion {
+                    // It walks already when it begins.
+                    let time_secs = self.world.frame().time_secs;
+                    tracker.restart(&motion.pose_at(time_secs - frame_secs), &motion.pose_at(time_secs));
+                }
+                if let Some(part) = &spec.response.keep_upright {
+                    let node = spec.node(part).ok_or_else(|| format!("no part or alias `{part}`"))?;
+                    tracker.keep_upright(Some(node));
+                }
+                let avoided = spec.response.avoid.iter().map(prop).collect::<Result<Vec<usize>, String>>()?;
+                tracker.avoid(&avoided);
                 Some(tracker)
             }
             _ => None,

@@ -26,6 +26,8 @@ pub struct CharacterSpec {
     pub facing_deg: f64,
     /// Velocity of the whole body at the start, in the world's axes \[m/s\].
     pub velocity_m_s: [f64; 3],
+    /// Turning of the whole body about its centre of mass at the start, in the world's axes \[rad/s\].
+    pub spin_rad_s: [f64; 3],
     /// The key pose that it has at the start; standing when left out.
     pub pose: Option<String>,
     /// How the body follows the wanted pose.
@@ -134,6 +136,7 @@ impl Default for CharacterSpec {
             position_m: [0.0; 3],
             facing_deg: 0.0,
             velocity_m_s: [0.0; 3],
+            spin_rad_s: [0.0; 3],
             pose: None,
             tracker: TrackerKind::default(),
             response: ResponseSpec::default(),
@@ -191,6 +194,7 @@ impl CharacterSpec {
         vector(&at("position_m"), self.position_m, 1e5, "metres are expected")?;
         number(&at("facing_deg"), self.facing_deg, -360.0..=360.0, "degrees are expected")?;
         vector(&at("velocity_m_s"), self.velocity_m_s, 1e3, "metres a second are expected")?;
+        vector(&at("spin_rad_s"), self.spin_rad_s, 1e3, "radians a second are expected")?;
         number(&at("pose_gain"), self.pose_gain, 0.0..=1000.0, "1 is usual")?;
         number(&at("gravity_scale"), self.gravity_scale, -100.0..=100.0, "1 is as on Earth")?;
         optional(&at("friction"), self.friction, 0.0..=10.0, "rubber has about 1, ice 0.05")?;
