@@ -1,5 +1,6 @@
 //! What is held: a part fastened to a prop or to another character's part, by a rigid joint or a spring.
 
+use crate::hold_force::rigid_impulse;
 use crate::{Entity, World};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
@@ -23,6 +24,7 @@ pub struct Held {
 pub(crate) struct Attachment {
     pub held: Held,
     joint: ImpulseJointHandle,
+    fastened: [RigidBodyHandle; 2],
 }
 
 /// Frequency \[Hz\] and damping ratio of a soft hold.
@@ -58,7 +60,7 @@ impl World {
         joint.set_local_frame2(b_at.inverse() * anchor);
         joint.set_contacts_enabled(false);
         let joint = self.engine.joints.insert(one, other, joint, true);
-        self.attachments.push(Attachment { held, joint });
+        self.attachments.push(Attachment { held, joint, fastened: [one, other] });
     }
 
     /// Lets go of something.
@@ -94,16 +96,17 @@ impl World {
 
     pub(crate) fn break_attachments(&mut self) {
         let step_secs = self.settings.step_secs() / self.engine.parameters.num_solver_iterations as f64;
-        let joints = &mut self.engine.joints;
+        let (joints, bodies) = (&mut self.engine.joints, &self.engine.bodies);
         self.attachments.retain(|attachment| {
             let Some(limit) = attachment.held.break_force_n else { return true };
             let Some(joint) = joints.get(attachment.joint) else { return true };
             let impulse = if attachment.held.soft {
-                DVec3::new(joint.data.motors[0].impulse, joint.data.motors[1].impulse, joint.data.motors[2].impulse)
+                let motors = &joint.data.motors;
+                DVec3::new(motors[0].impulse, motors[1].impulse, motors[2].impulse).length()
             } else {
-                DVec3::new(joint.impulses[0], joint.impulses[1], joint.impulses[2])
+                rigid_impulse(joint, attachment.fastened, bodies)
             };
-            let stays = impulse.length() / step_secs <= limit;
+            let stays = impulse / step_secs <= limit;
             if !stays {
                 joints.remove(attachment.joint, true);
             }

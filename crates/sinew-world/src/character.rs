@@ -3,7 +3,7 @@
 use crate::engine::Engine;
 use crate::extra_shape::ExtraShape;
 use crate::joint::{LimitSpring, write_ball, write_hinge};
-use crate::ragdoll::is_hinge;
+use crate::ragdoll::{is_hinge, part_inertia};
 use crate::{CharacterSpec, Drive, Pin};
 use glam::{DMat3, DQuat, DVec3};
 use rapier3d_f64::prelude::*;
@@ -141,7 +141,7 @@ impl Character {
                 body.set_angvel(body.angvel() * kept, true);
             }
             (Hold::Free, Some(pin)) => {
-                let (force, torque) = pin_force(body, &pin, step_secs, gravity);
+                let (force, torque) = pin_force(body, part_inertia(self.body(), node), &pin, step_secs, gravity);
                 body.add_force(force, true);
                 body.add_torque(torque, true);
             }
@@ -150,8 +150,9 @@ impl Character {
     }
 }
 
-/// Force \[N\] and torque \[N m\] of a pin on a body.
-fn pin_force(body: &RigidBody, pin: &Pin, step_secs: f64, gravity: DVec3) -> (DVec3, DVec3) {
+/// Force \[N\] and torque \[N m\] of a pin on a body with these moments of inertia along its axes. (The library's own are along
+/// axes that it chooses: with those of another axis the torque is no longer stable.)
+fn pin_force(body: &RigidBody, inertia: DVec3, pin: &Pin, step_secs: f64, gravity: DVec3) -> (DVec3, DVec3) {
     let (h, k, d) = (step_secs, pin.stiffness, pin.damping);
     let scale = 1.0 / (1.0 + h * d + h * h * k);
     let centre = pin.position + pin.rotation * body.local_center_of_mass();
@@ -163,7 +164,6 @@ fn pin_force(body: &RigidBody, pin: &Pin, step_secs: f64, gravity: DVec3) -> (DV
     let turn = log(pin.rotation * body.rotation().conjugate());
     let turning = ((turn + spin * h) * k + spin * d) * scale;
     let rotation = DMat3::from_quat(*body.rotation());
-    let inertia = body.mass_properties().local_mprops.principal_inertia();
     let torque = rotation * (DMat3::from_diagonal(inertia) * (rotation.transpose() * turning));
 
     let cut = (pin.max_force_n / force.length().max(1e-9)).min(1.0);

@@ -9,6 +9,7 @@ mod drive;
 mod engine;
 mod extra_shape;
 mod frame;
+mod hold_force;
 mod joint;
 mod nearest;
 mod plane;

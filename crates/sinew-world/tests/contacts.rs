@@ -3,7 +3,7 @@
 mod common;
 
 use common::{adult, fallen, floor_impulse, hold, lifted, prone, spec, standing, steps, supine};
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_world::{Entity, Form, Motion, PartShape, PropSpec, Solid, Surface, World, WorldSettings, margin};
 
@@ -173,7 +173,7 @@ fn smooth_feet_slide_and_rough_ones_stay() {
         (world.frame().characters[0].part(Node::LeftFoot).position - start).x
     };
     // 120 N on 785 N: a friction of 0.05 bears 39 N, one of 0.9 all of it.
-    assert!(slide(0.05) > 0.02, "{}", slide(0.05));
+    assert!(slide(0.05) > 0.015, "{}", slide(0.05));
     assert!(slide(0.9) < 0.005, "{}", slide(0.9));
 }
 
@@ -193,13 +193,13 @@ fn skis_hold_up_a_body_that_falls_without_them() {
         }
         steps(&mut world, 0.5);
         for _ in 0..120 {
-            world.push_part(0, Node::Chest, DVec3::Z * 110.0, None);
+            world.push_part(0, Node::Chest, DVec3::Z * 160.0, None);
             world.step();
         }
         steps(&mut world, 2.0);
         world.frame().characters[0].part(Node::Head).position.y
     };
-    // Half a second of 110 N is 0.7 m/s: more than feet stand without a step, less than 0.9 m of ski.
+    // Half a second of 160 N is 1 m/s, which carries a centre of mass 0.3 m on: beyond the toes, not beyond 0.9 m of ski.
     assert!(lean(true) > 1.3, "with skis the head is at {} m", lean(true));
     assert!(lean(false) < 0.9, "without it is at {} m", lean(false));
 }
@@ -220,29 +220,56 @@ fn a_part_without_a_shape_passes_through_and_its_own_comes_back() {
 }
 
 #[test]
-fn a_platform_carries_what_stands_on_it() {
+fn a_platform_carries_what_lies_on_it_and_wakes_it() {
+    let body = adult();
+    let mut world = World::new(WorldSettings { floor: None, ..WorldSettings::default() });
+    let deck = Solid::new(Form::Box { size_m: DVec3::new(6.0, 0.2, 6.0) });
+    let surface = Surface { friction: 0.9, bounce: 0.0 };
+    world.add_prop(PropSpec { surface, ..PropSpec::new(deck, Motion::Moving, DVec3::new(0.0, -0.1, 0.0)) }).unwrap();
+    world.add_prop(PropSpec { surface, ..crate_of(20.0, DVec3::new(2.0, 0.26, 0.0)) }).unwrap();
+    world.add_character(spec(&body, lifted(&body, supine(), 0.02))).unwrap();
+    steps(&mut world, 5.0);
+    assert!(world.is_asleep(0));
+    let place = |world: &World| {
+        let (deck, one) = (&world.frame().props[0], &world.frame().characters[0]);
+        (one.centre_of_mass - deck.position, world.frame().props[1].position - deck.position)
+    };
+    let (body_before, crate_before) = place(&world);
+    // 2 m/s² ask for a friction of 0.2.
+    world.accelerate_prop(0, DVec3::Z * 2.0);
+    steps(&mut world, 0.5);
+    world.accelerate_prop(0, DVec3::ZERO);
+    steps(&mut world, 1.0);
+    let (body_after, crate_after) = place(&world);
+    let speed = world.frame().characters[0].centre_velocity;
+    assert!((speed - DVec3::Z).length() < 0.02, "{speed}");
+    // The limbs give a little when it starts.
+    assert!((body_after - body_before).length() < 0.03, "{body_before} {body_after}");
+    assert!((crate_after - crate_before).length() < 0.005, "{crate_before} {crate_after}");
+}
+
+#[test]
+fn a_body_stands_on_a_platform_that_rises() {
     let body = adult();
     let mut world = World::new(WorldSettings { floor: None, ..WorldSettings::default() });
     let deck = Solid::new(Form::Box { size_m: DVec3::new(4.0, 0.2, 4.0) });
-    let surface = Surface { friction: 0.9, bounce: 0.0 };
-    world.add_prop(PropSpec { surface, ..PropSpec::new(deck, Motion::Moving, DVec3::new(0.0, -0.1, 0.0)) }).unwrap();
+    world.add_prop(PropSpec::new(deck, Motion::Moving, DVec3::new(0.0, -0.1, 0.0))).unwrap();
     world.add_character(spec(&body, standing(&body))).unwrap();
     hold(&mut world, 0, 4.0);
     steps(&mut world, 0.5);
-    // Gently to 1 m/s, then on at that speed.
-    world.accelerate_prop(0, DVec3::Z * 0.4);
-    steps(&mut world, 2.5);
-    world.accelerate_prop(0, DVec3::ZERO);
-    steps(&mut world, 1.0);
+    world.accelerate_prop(0, DVec3::Y * 2.0);
+    steps(&mut world, 0.5);
+    // The deck bears the weight and what lifts it.
+    let mut borne = 0.0;
+    for _ in 0..24 {
+        world.step();
+        borne += world.frame().touching(Entity::Prop(0)).map(|touch| touch.impulse.y).sum::<f64>();
+    }
+    let expected = body.mass_kg() * (9.81 + 2.0) * 0.1;
+    assert!((borne - expected).abs() < 0.05 * expected, "{borne} N s against {expected}");
     let (deck, one) = (&world.frame().props[0], &world.frame().characters[0]);
-    assert!((deck.velocity.z - 1.0).abs() < 0.01, "{}", deck.velocity);
-    let feet = one.part(Node::LeftFoot).velocity;
-    assert!((feet - deck.velocity).length() < 0.02, "feet go at {feet}");
-    let place = one.part(Node::LeftFoot).position.z - deck.position.z;
-    assert!(place.abs() < 0.02, "feet slid by {place} m");
-    assert!(one.part(Node::Head).position.y > 1.3, "it still stands");
-    assert!(world.frame().are_touching(Entity::Prop(0), Entity::Part(0, Node::LeftFoot)));
-    let _ = DQuat::IDENTITY;
+    assert!((one.part(Node::LeftFoot).velocity - deck.velocity).length() < 0.05);
+    assert!(one.part(Node::Head).position.y - deck.position.y > 1.4, "it still stands");
 }
 
 #[test]

@@ -233,7 +233,7 @@ fn a_drive_follows_a_turning_target_without_lag_when_it_is_told_the_velocity() {
 #[test]
 fn a_torque_turns_a_part_against_its_parent() {
     let mut world = floating();
-    for _ in 0..24 {
+    for _ in 0..20 {
         world.set_drive(0, Node::Head, Drive { torque: DVec3::Y * 2.0, ..Drive::limp(0.0) });
         world.step();
     }
