@@ -8,9 +8,10 @@
 //! violation v > 0. As printed the torque is k e^{−1} at v = 0.
 
 use crate::Drive;
+use crate::ragdoll::is_hinge;
 use glam::{DMat3, DQuat, DVec3};
 use rapier3d_f64::prelude::*;
-use sinew_body::humanoid::{Limit, log, swing_twist};
+use sinew_body::humanoid::{Limit, Node, log, swing_twist};
 
 /// The exponential spring of a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,6 +115,28 @@ impl Reach {
     }
 }
 
+/// How far a joint is beyond its range at the limit that it is nearest to, about the axis that leads there \[rad\]; negative inside.
+pub(crate) fn violation(node: Node, limit: &Limit, local: DQuat) -> f64 {
+    if is_hinge(node) {
+        let angle = hinge_angle(limit.centre.conjugate() * local);
+        return (angle - limit.swing.x_positive).max(-limit.swing.x_negative - angle);
+    }
+    let reach = Reach::of(limit, local);
+    // In the middle of its range the swing has no direction, and is far from any limit.
+    let swing = if reach.swing_violation == 0.0 { f64::NEG_INFINITY } else { reach.swing_violation };
+    swing.max(reach.twist_violation)
+}
+
+/// The turn about X.
+fn hinge_angle(rotation: DQuat) -> f64 {
+    wrap(2.0 * libm::atan2(rotation.x, rotation.w))
+}
+
+/// The same angle within half a turn.
+fn wrap(angle: f64) -> f64 {
+    angle - libm::round(angle / std::f64::consts::TAU) * std::f64::consts::TAU
+}
+
 /// How the length of a swing relative to the ellipse's radius changes with its x and z.
 fn swing_gradient(limit: &Limit, x: f64, z: f64, ratio: f64) -> (f64, f64) {
     let swing = &limit.swing;
@@ -165,10 +188,6 @@ pub(crate) fn write_hinge(
     step_secs: f64,
 ) {
     let angle_of = |rotation: DQuat| 2.0 * libm::atan2(rotation.x, rotation.w);
-    let wrap = |angle: f64| {
-        let turns = libm::round(angle / std::f64::consts::TAU);
-        angle - turns * std::f64::consts::TAU
-    };
     let centre = angle_of(limit.centre);
     let angle = wrap(angle_of(local) - centre);
     let high = angle - limit.swing.x_positive;

@@ -5,6 +5,7 @@
 
 mod attachment;
 mod character;
+mod check;
 mod drive;
 mod engine;
 mod extra_shape;
@@ -24,6 +25,7 @@ mod watch;
 mod world;
 
 pub use attachment::Held;
+pub use check::{CHECKED_SECS, RagdollReport, check_ragdoll};
 pub use drive::{Drive, Pin};
 pub use frame::{BodyState, CharacterFrame, Contact, Entity, Frame};
 pub use nearest::Nearest;
