@@ -59,7 +59,13 @@ impl Recording {
         });
         let props = scene.props.iter().filter_map(|(name, spec)| {
             let solid = spec.solid()?;
-            Some(RecordedProp { name: name.clone(), solid, rgb: spec.rgb(), is_sensor: spec.sensor, places: Vec::new() })
+            Some(RecordedProp {
+                name: name.clone(),
+                solid,
+                rgb: spec.rgb(),
+                is_sensor: spec.sensor,
+                places: Vec::new(),
+            })
         });
         Recording {
             motion_hz: f64::from(scene.stage.motion_hz),

@@ -61,6 +61,12 @@ impl World {
         &self.settings
     }
 
+    /// Steps on this many threads from now on, 1 to 64, and says on how many: always 1 without the feature `threads`. The number
+    /// changes no bit of what comes out.
+    pub fn set_threads(&mut self, threads: usize) -> usize {
+        self.engine.set_threads(threads.clamp(1, 64))
+    }
+
     /// Makes a ragdoll of a body; its joints hang until they are driven. Returns its number.
     ///
     /// # Errors
@@ -225,7 +231,9 @@ impl World {
         }
     }
 
-    /// Gives a part another collision shape, its own again with `own`, or none at all. Its mass stays.
+    /// Gives a part another collision shape, its own again with `own`, or none at all. Its mass stays; its inertia is that of the
+    /// mass spread over the shape, if that is more than its own: a foot that turned as lightly as ever under a long ski would
+    /// let the ski's ends sink into the ground.
     ///
     /// # Errors
     /// When the shape is none.
@@ -241,13 +249,19 @@ impl World {
         };
         let form = solid.map(|solid| solid.shape().ok_or(SpecError::NoShape)).transpose()?;
         collider.set_enabled(solid.is_some());
+        let mut inertia = ragdoll::part_inertia(one.body(), node);
+        let link = *one.body().link(node);
         if let (Some(solid), Some(form)) = (solid, form) {
+            if let PartShape::Other(_) = shape {
+                inertia =
+                    inertia.max(spread_inertia(&form.compute_aabb(&solid.placement()), link.centre, link.mass_kg));
+            }
             collider.set_shape(form);
             collider.set_position_wrt_parent(solid.placement());
             collider.user_data = tag(crate::Entity::Part(character, node));
         }
         if let Some(body) = self.engine.bodies.get_mut(one.bodies[node.index()]) {
-            body.wake_up(true);
+            body.set_additional_mass_properties(MassProperties::new(link.centre, link.mass_kg, inertia), true);
         }
         Ok(())
     }
@@ -300,6 +314,13 @@ impl World {
             body.set_gravity_scale(scale, true);
         }
     }
+}
+
+/// Moments of inertia about a point of a mass that fills a box, along its axes \[kg m²\].
+fn spread_inertia(bounds: &rapier3d_f64::parry::bounding_volume::Aabb, about: DVec3, mass_kg: f64) -> DVec3 {
+    let (size, arm) = (bounds.maxs - bounds.mins, (bounds.maxs + bounds.mins) / 2.0 - about);
+    let square = size * size / 12.0 + arm * arm;
+    DVec3::new(square.y + square.z, square.z + square.x, square.x + square.y) * mass_kg
 }
 
 /// Largest force that is taken \[N\]: ten tonnes' weight; beyond it bodies pass through what they hit.

@@ -102,7 +102,10 @@ fn panel(recording: &Recording, frame: usize) -> Panel {
     }
     let is_near = |place: DVec3| {
         recording.characters.is_empty()
-            || recording.characters.iter().any(|character| character.poses[frame].hips_position.distance(place) < NEAR_M)
+            || recording
+                .characters
+                .iter()
+                .any(|character| character.poses[frame].hips_position.distance(place) < NEAR_M)
     };
     for prop in recording.props.iter().filter(|prop| !prop.is_sensor) {
         let (position, rotation): (DVec3, DQuat) = prop.places[frame];

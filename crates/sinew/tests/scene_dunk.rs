@@ -1,0 +1,85 @@
+//! The controller that Shapiro et al. 2007 print dunks.
+
+use glam::DVec3;
+use sinew::body::humanoid::Node;
+use sinew::run::{RunJob, run};
+use sinew::script::{Limits, ScriptHost};
+use sinew::stage::Scene;
+use std::path::{Path, PathBuf};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
+fn host() -> ScriptHost {
+    // Many tests share the machine: a script that is only slow must not be taken for one that never returns.
+    let limits = Limits { step_secs: 20.0, startup_secs: 60.0, ..Limits::default() };
+    ScriptHost { program: env!("CARGO_BIN_EXE_sinew").into(), args: vec!["script-host".to_owned()], limits }
+}
+
+#[test]
+fn the_listing_is_the_one_that_is_printed() {
+    let text = std::fs::read_to_string(folder().join("controllers/dunk.py")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    // As the appendix prints it, two empty lines included.
+    assert_eq!(lines.len(), 19);
+    for line in [
+        "class DunkController:",
+        "        skeleton.setTargetPose(\"PrepareDunk\")",
+        "        skeleton.attachLink(\"RightArm\", \"Ball\")",
+        "        if skeleton.isLinkAttached(\"RightArm\", \"Ball\") :",
+        "            rimPos = getPosition(\"Rim\")",
+        "            skeleton.setIKTarget(rimPos)",
+        "        if isColliding(\"Ball\", \"Rim\") \\",
+        "            or isColliding(skeleton, \"Rim\") :",
+        "            skeleton.detachLink(\"RightArm\", \"Ball\")",
+        "            skeleton.setTargetPose(\"Landing\")",
+    ] {
+        assert!(lines.contains(&line), "{line}");
+    }
+}
+
+#[test]
+fn the_ball_is_let_go_at_the_rim_and_drops_through_it_and_the_character_lands_on_its_feet() {
+    let scene = Scene::read(&folder().join("dunk.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let rim = DVec3::from(scene.props["Rim"].position_m);
+    let ring = scene.props["Rim"].ring.unwrap();
+    let job = RunJob { host: Some(host()), ..RunJob::default() };
+    let ran = run(scene, &job, |_, _, _| ()).unwrap_or_else(|error| panic!("{error}"));
+
+    let when = |effect: &str| {
+        let found = ran.report.events.iter().find(|event| event.effect.contains(effect));
+        found.unwrap_or_else(|| panic!("no `{effect}` in {:#?}", ran.report.events)).time_secs
+    };
+    assert_eq!(when("rightHand holds Ball"), 0.0);
+    let let_go = when("rightHand lets go of Ball");
+    assert!(when("takes the pose Landing") >= let_go);
+    assert!(ran.report.events.iter().all(|event| !event.effect.contains("refused")), "{:#?}", ran.report.events);
+
+    let ball = ran.recording.props.iter().find(|prop| prop.name == "Ball").unwrap();
+    let places: Vec<DVec3> = ball.places.iter().map(|(place, _)| *place).collect();
+    let frame = |secs: f64| (secs * ran.recording.motion_hz).round() as usize;
+    // It was let go near the rim: a ball's and a hand's size, and what a frame adds.
+    let distance = (places[frame(let_go)] - rim).length();
+    assert!(distance < ring.radius_m + 0.25, "{distance}");
+    // The first time that its centre sinks below the rim's plane, it is within the ring.
+    let below = (1..places.len()).find(|&at| places[at - 1].y > rim.y && places[at].y <= rim.y).unwrap();
+    assert!(below >= frame(let_go));
+    let (from, to) = (places[below - 1], places[below]);
+    let through = from + (to - from) * ((from.y - rim.y) / (from.y - to.y));
+    let aside = DVec3::new(through.x - rim.x, 0.0, through.z - rim.z).length();
+    assert!(aside < ring.radius_m - ring.tube_m, "{aside} from the middle");
+    // And it goes on down.
+    assert!(places[below..].iter().take(12).all(|place| place.y <= rim.y));
+
+    let player = &ran.recording.characters[0];
+    let end = player.poses.last().unwrap();
+    let positions = end.positions(&player.body);
+    // Of 1.9 m: hips at 1.15 m, ankles at 0.1 m.
+    assert!(positions[Node::Hips.index()].y > 1.0, "{}", positions[0]);
+    for foot in [Node::LeftFoot, Node::RightFoot] {
+        assert!(positions[foot.index()].y < 0.13, "{}", positions[foot.index()]);
+    }
+    let up = end.world[Node::Chest.index()] * DVec3::Y;
+    assert!(up.y > 0.9, "{up}");
+}
