@@ -78,6 +78,13 @@ fn steps(criterion: &mut Criterion) {
         stretches(criterion, &format!("stand/{count}"), 240, || crowd(count));
     }
     stretches(criterion, "pile/20", 240, pile);
+    if pile().set_threads(2) == 2 {
+        stretches(criterion, "pile/20, two threads", 240, || {
+            let mut world = pile();
+            world.set_threads(2);
+            world
+        });
+    }
     criterion.bench_function("asleep", |bencher| {
         let mut world = World::new(WorldSettings::default());
         world.add_character(spec(&body, lifted(&body, common::supine(), 0.02))).expect("a body");

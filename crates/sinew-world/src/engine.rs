@@ -48,6 +48,8 @@ impl Engine {
             gravity: DVec3::new(0.0, -settings.gravity_m_s2, 0.0),
             ground: RigidBodyHandle::invalid(),
         };
+        // With its feature on, the library would take every core of the machine.
+        engine.set_threads(1);
         engine.ground = engine.bodies.insert(RigidBodyBuilder::fixed());
         if let Some(surface) = settings.floor {
             let floor = ColliderBuilder::new(SharedShape::halfspace(DVec3::Y))
@@ -58,6 +60,18 @@ impl Engine {
             engine.colliders.insert_with_parent(floor, engine.ground, &mut engine.bodies);
         }
         engine
+    }
+
+    #[cfg(feature = "threads")]
+    pub fn set_threads(&mut self, threads: usize) -> usize {
+        // Where the system gives no threads, the step runs on those that it had.
+        let _ = self.pipeline.configure_thread_pool(threads);
+        self.pipeline.num_threads().unwrap_or(1)
+    }
+
+    #[cfg(not(feature = "threads"))]
+    pub fn set_threads(&mut self, _threads: usize) -> usize {
+        1
     }
 
     pub fn step(&mut self) {

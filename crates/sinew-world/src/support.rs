@@ -71,10 +71,11 @@ mod tests {
     use super::*;
 
     fn square() -> Vec<DVec3> {
-        let mut points: Vec<DVec3> = [(0.0, 0.0), (0.5, 0.5), (1.0, 0.0), (1.0, 1.0), (0.2, 0.7), (0.0, 1.0), (0.5, 0.0)]
-            .into_iter()
-            .map(|(x, z)| DVec3::new(x, 0.0, z))
-            .collect();
+        let mut points: Vec<DVec3> =
+            [(0.0, 0.0), (0.5, 0.5), (1.0, 0.0), (1.0, 1.0), (0.2, 0.7), (0.0, 1.0), (0.5, 0.0)]
+                .into_iter()
+                .map(|(x, z)| DVec3::new(x, 0.0, z))
+                .collect();
         keep_hull(&mut points, &mut Vec::new());
         points
     }

@@ -8,9 +8,10 @@ use sinew_body::humanoid::{Node, Pose};
 use sinew_world::{CharacterSpec, Entity, Form, Held, Motion, PropSpec, Solid, World, WorldSettings};
 
 /// A scene with all that the world does, two seconds long; the hash of every step.
-fn play(settings: WorldSettings) -> Vec<u64> {
+fn play(threads: usize) -> Vec<u64> {
     let body = adult();
-    let mut world = World::new(settings);
+    let mut world = World::new(WorldSettings::default());
+    world.set_threads(threads);
     world.add_character(CharacterSpec { velocity: DVec3::Z * 0.5, ..spec(&body, standing(&body)) }).unwrap();
     hold(&mut world, 0, 3.0);
     for seed in 0..3 {
@@ -50,8 +51,16 @@ fn play(settings: WorldSettings) -> Vec<u64> {
 
 #[test]
 fn the_same_scene_gives_the_same_hash_at_every_step() {
-    let (one, other) = (play(WorldSettings::default()), play(WorldSettings::default()));
+    let (one, other) = (play(1), play(1));
     let first = one.iter().zip(&other).position(|(a, b)| a != b);
+    assert_eq!(first, None, "differs from step {first:?} on");
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    // With the feature `threads` these are two threads, without it one.
+    let (one, two) = (play(1), play(2));
+    let first = one.iter().zip(&two).position(|(a, b)| a != b);
     assert_eq!(first, None, "differs from step {first:?} on");
 }
 
@@ -61,7 +70,7 @@ const GOLDEN: u64 = 0xc3ba_71ce_d6a7_39e7;
 
 #[test]
 fn the_hash_is_the_one_written_down() {
-    let hash = play(WorldSettings::default())[479];
+    let hash = play(1)[479];
     assert!(hash == GOLDEN, "the hash is {hash:#x}, not {GOLDEN:#x}");
 }
 
