@@ -3,7 +3,7 @@
 use super::names::{Names, Thing};
 use super::sensor::Sensor;
 use super::spec::{GraphSpec, Quantity, SensorSpec, StateSpec, TransitionSpec};
-use super::steering::{Feedback, Steering};
+use super::steering::{Feedback, Steering, WorldHips};
 use super::{GraphError, Touchable};
 use crate::pose::{KeyPose, PartName, list, number};
 use sinew_body::humanoid::Node;
@@ -201,13 +201,22 @@ fn resolve_steering(state: &StateSpec, place: &str) -> Result<Steering, GraphErr
     }
     let upright = state.upright.iter().map(|part| not_hips(*part)).collect::<Result<_, _>>()?;
     let lean_deg = number::checked(state.hips_lean_deg, &number::LEAN_DEG, "hips_lean_deg").map_err(wrong)?;
+    let heading_deg = match state.heading_deg {
+        Some(degrees) => Some(number::checked(degrees, &number::HEADING_DEG, "heading_deg").map_err(wrong)?),
+        None => None,
+    };
     let world_hips = match (state.world_hips, state.stance) {
-        (true, Some(stance)) => Some((stance, lean_deg.to_radians())),
+        (true, Some(stance)) => {
+            Some(WorldHips { stance, lean: lean_deg.to_radians(), heading: heading_deg.map(f64::to_radians) })
+        }
         (true, None) => {
             return Err(wrong("world_hips needs to know the leg that carries; give stance".to_owned()));
         }
         (false, _) if lean_deg != 0.0 => {
             return Err(wrong("hips_lean_deg does nothing without world_hips = true".to_owned()));
+        }
+        (false, _) if heading_deg.is_some() => {
+            return Err(wrong("heading_deg does nothing without world_hips = true".to_owned()));
         }
         (false, _) => None,
     };

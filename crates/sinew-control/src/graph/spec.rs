@@ -26,20 +26,26 @@ pub struct StateSpec {
     /// Turns of joints in proportion to where the centre of mass is.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub feedback: Vec<FeedbackSpec>,
-    /// Parts whose wanted turn is measured from the upright facing frame, not from their parents.
+    /// Parts whose wanted turn is measured from an upright frame that faces as their parents do, not from their parents: a foot
+    /// with a turn of 0 is level whatever its leg does.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub upright: Vec<PartName>,
     /// Which leg carries the body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stance: Option<LegSide>,
-    /// The leg that carries turns the hips to `hips_lean_deg` in the world, and the other thigh's wanted turn is measured
-    /// from the upright facing frame. Needs `stance`.
+    /// The leg that carries turns the hips to `hips_lean_deg` in the world, and the other thigh is upright in the sense of
+    /// `upright`. Needs `stance`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub world_hips: bool,
     /// Lean of the hips with `world_hips` \[degrees\], forward positive, -90 to 90.
     #[serde(default, deserialize_with = "number::lean", skip_serializing_if = "is_zero")]
     #[schemars(range(min = -90, max = 90))]
     pub hips_lean_deg: f64,
+    /// Where the hips are turned to with `world_hips` \[degrees about +Y from +Z to +X, -360 to 360\]; when left out they keep the
+    /// facing that they have.
+    #[serde(default, deserialize_with = "number::some_heading", skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -360, max = 360))]
+    pub heading_deg: Option<f64>,
 }
 
 /// A way out of a state. All conditions that are given must hold at once; at least one must be given.

@@ -3,7 +3,7 @@
 use super::spec::{LegSide, TurnAxis};
 use crate::Target;
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Node, exp};
+use sinew_body::humanoid::{Node, exp, swing_twist};
 use sinew_world::{CharacterFrame, Frame};
 
 /// The steering of one state.
@@ -11,8 +11,17 @@ use sinew_world::{CharacterFrame, Frame};
 pub struct Steering {
     pub(super) feedback: Vec<Feedback>,
     pub(super) upright: Vec<Node>,
-    /// The leg that carries and the hips' wanted lean \[rad\], forward positive.
-    pub(super) world_hips: Option<(LegSide, f64)>,
+    pub(super) world_hips: Option<WorldHips>,
+}
+
+/// How the leg that carries holds the hips in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WorldHips {
+    pub(super) stance: LegSide,
+    /// Lean \[rad\], forward positive.
+    pub(super) lean: f64,
+    /// About +Y from +Z to +X \[rad\]; the present facing when left out.
+    pub(super) heading: Option<f64>,
 }
 
 /// One rule of balance feedback.
@@ -28,6 +37,9 @@ pub(super) struct Feedback {
 /// Most that feedback turns a joint \[rad\]: beyond it the body falls anyway, and limbs should not wind themselves up.
 const MOST_FEEDBACK: f64 = 1.2;
 
+/// Most that the hips are turned towards their heading at once \[rad\]: a foot that stands holds no more.
+const MOST_TURN: f64 = 0.35;
+
 impl Steering {
     /// Changes a wanted pose that has been written. Feedback comes first, then parts measured in the world, then the hips.
     pub fn apply(&self, frame: &Frame, own: usize, target: &mut Target) {
@@ -37,24 +49,35 @@ impl Steering {
         for rule in &self.feedback {
             rule.apply(character, target);
         }
-        let world_from_facing = facing_turn(character);
         for node in &self.upright {
-            hold_upright(*node, character, world_from_facing, target);
+            hold_upright(*node, character, target);
         }
-        if let Some((stance, lean)) = self.world_hips {
-            let (stance, swing) = match stance {
-                LegSide::Left => (Node::LeftUpperLeg, Node::RightUpperLeg),
-                LegSide::Right => (Node::RightUpperLeg, Node::LeftUpperLeg),
-            };
-            hold_upright(swing, character, world_from_facing, target);
-            // A turn of the hips against the thigh that carries: as if the thigh stood still in the world.
-            let world_from_hips = world_from_facing * exp(DVec3::X * lean);
-            let thigh = character.part(stance);
-            let joint = target.joint_mut(stance);
-            joint.rotation = (world_from_hips.conjugate() * thigh.rotation).normalize();
-            // And damped in the world: the thigh that turns under the hips does not drag them along.
-            joint.velocity = finite(thigh.rotation.conjugate() * thigh.angular_velocity);
+        if let Some(hips) = &self.world_hips {
+            hips.apply(character, target);
         }
+    }
+}
+
+impl WorldHips {
+    fn apply(&self, character: &CharacterFrame, target: &mut Target) {
+        let (stance, swing) = match self.stance {
+            LegSide::Left => (Node::LeftUpperLeg, Node::RightUpperLeg),
+            LegSide::Right => (Node::RightUpperLeg, Node::LeftUpperLeg),
+        };
+        hold_upright(swing, character, target);
+        let facing = facing_of(character.part(Node::Hips).rotation);
+        let turn = self.heading.map_or(0.0, |heading| {
+            // The short way round.
+            let left = heading - facing;
+            libm::atan2(libm::sin(left), libm::cos(left)).clamp(-MOST_TURN, MOST_TURN)
+        });
+        let world_from_hips = exp(DVec3::Y * (facing + turn)) * exp(DVec3::X * self.lean);
+        // A turn of the hips against the thigh that carries: as if the thigh stood still in the world.
+        let thigh = character.part(stance);
+        let joint = target.joint_mut(stance);
+        joint.rotation = (world_from_hips.conjugate() * thigh.rotation).normalize();
+        // And damped in the world: the thigh that turns under the hips does not drag them along.
+        joint.velocity = finite(thigh.rotation.conjugate() * thigh.angular_velocity);
     }
 }
 
@@ -73,22 +96,25 @@ impl Feedback {
     }
 }
 
-/// `world_from_facing`: upright, Z along the character's facing.
-fn facing_turn(character: &CharacterFrame) -> DQuat {
-    exp(DVec3::Y * libm::atan2(character.facing.x, character.facing.z))
+/// How far a part is turned about the vertical \[rad\].
+fn facing_of(world_from_part: DQuat) -> f64 {
+    swing_twist(world_from_part).2
 }
 
-/// Makes a part's wanted turn one in the world: what the pose says of it is measured from the upright facing frame.
-fn hold_upright(node: Node, character: &CharacterFrame, world_from_facing: DQuat, target: &mut Target) {
+/// Makes a part's wanted turn one in the world: what the pose says of it is measured from an upright frame. That frame
+/// faces as the parent does, so that a turn about the vertical still goes from part to part: a leg that stands holds the body's
+/// heading.
+fn hold_upright(node: Node, character: &CharacterFrame, target: &mut Target) {
     let Some(parent) = node.parent() else {
         return;
     };
     let parent = character.part(parent);
     let joint = target.joint_mut(node);
-    let world_from_node = world_from_facing * joint.rotation;
+    let world_from_node = exp(DVec3::Y * facing_of(parent.rotation)) * joint.rotation;
     joint.rotation = (parent.rotation.conjugate() * world_from_node).normalize();
-    // What is wanted in the world is damped in the world, whatever the parent does.
-    joint.velocity -= finite(world_from_node.conjugate() * parent.angular_velocity);
+    // What is wanted in the world is damped in the world, whatever the parent does; but for turns about the vertical.
+    let turning = parent.angular_velocity - DVec3::Y * parent.angular_velocity.y;
+    joint.velocity -= finite(world_from_node.conjugate() * turning);
 }
 
 fn finite(velocity: DVec3) -> DVec3 {

@@ -15,6 +15,8 @@ pub(crate) const PLACE_M: RangeInclusive<f64> = -100.0..=100.0;
 pub(crate) const ANY: RangeInclusive<f64> = -1e6..=1e6;
 /// Leans of the hips \[degrees\].
 pub(crate) const LEAN_DEG: RangeInclusive<f64> = -90.0..=90.0;
+/// Headings \[degrees\].
+pub(crate) const HEADING_DEG: RangeInclusive<f64> = -360.0..=360.0;
 
 fn read<'de, D: Deserializer<'de>>(from: D, range: &RangeInclusive<f64>, what: &str) -> Result<f64, D::Error> {
     checked(f64::deserialize(from)?, range, what).map_err(D::Error::custom)
@@ -55,6 +57,10 @@ pub(crate) fn feedback<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Err
 
 pub(crate) fn lean<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     read(from, &LEAN_DEG, "the hips' lean in degrees")
+}
+
+pub(crate) fn some_heading<'de, D: Deserializer<'de>>(from: D) -> Result<Option<f64>, D::Error> {
+    read(from, &HEADING_DEG, "the heading in degrees").map(Some)
 }
 
 pub(crate) fn place<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 3], D::Error> {
