@@ -4,6 +4,10 @@
 //! A reflex sees the finished [`Frame`] of the step before and changes the wanted pose that the layers above it have made. It
 //! keeps what state it needs and is asked at every physics step while it is switched on.
 
+mod balance;
+
+pub use balance::{Balance, BalanceSettings};
+
 use crate::Target;
 use crate::tracker::Gains;
 use sinew_body::humanoid::Body;
@@ -46,9 +50,9 @@ pub trait Reflex: Send {
 }
 
 /// The names of all reflexes.
-pub const NAMES: &[&str] = &[];
+pub const NAMES: &[&str] = &["balance"];
 
 /// A reflex by its name; `None` when there is none of that name.
-pub fn by_name(_name: &str, _body: &Body) -> Option<Box<dyn Reflex>> {
-    None
+pub fn by_name(name: &str, body: &Body) -> Option<Box<dyn Reflex>> {
+    (name == "balance").then(|| Box::new(Balance::new(body, BalanceSettings::default())) as Box<dyn Reflex>)
 }

@@ -1,0 +1,125 @@
+//! Forces of the ground, and the torques of the legs that call them forth.
+
+use super::stance::{Stance, leg, lift};
+use crate::reflex::Sense;
+use crate::{JointTarget, Target};
+use glam::{DVec2, DVec3};
+use sinew_body::humanoid::{Node, exp, log};
+
+/// What the ground is to do.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ground {
+    /// Share of each foot \[1\].
+    pub shares: [f64; 2],
+    /// Centre of pressure under each foot \[m\].
+    pub points: [DVec3; 2],
+    /// Force on both together \[N\].
+    pub force: DVec3,
+    /// What that accelerates the centre of mass with \[m/s²\].
+    pub acceleration: DVec3,
+}
+
+/// Largest horizontal force \[1 of the weight\]: shoes slip beyond it.
+const GRIP: f64 = 0.7;
+
+impl Ground {
+    /// The ground's forces for a centre of pressure and a moment about the centre of mass \[N m\].
+    pub fn under(sense: &Sense, stance: &Stance, pressure: DVec2, moment: DVec3) -> Ground {
+        let (mass, gravity, height) = (sense.body.mass_kg(), sense.gravity_m_s2, stance.height_m);
+        let shares = shares(stance, pressure);
+        let middle = stance.feet[0].rest * shares[0] + stance.feet[1].rest * shares[1];
+        let offset = pressure - middle;
+        let points = [0, 1].map(|side| {
+            let foot = &stance.feet[side];
+            lift(foot.nearest(foot.rest + offset), foot.height_m)
+        });
+        let reached = points[0] * shares[0] + points[1] * shares[1];
+        // (p - c) x F = M with F's upward part the weight.
+        let arm = DVec2::new(reached.x, reached.z) - stance.centre;
+        let weight = mass * gravity;
+        let force = DVec2::new(moment.z - arm.x * weight, -moment.x - arm.y * weight) / height;
+        let force = force.clamp_length_max(GRIP * weight);
+        Ground {
+            shares,
+            points,
+            force: DVec3::new(force.x, weight, force.y),
+            acceleration: DVec3::new(force.x, 0.0, force.y) / mass,
+        }
+    }
+}
+
+/// How the weight is shared for a centre of pressure: by where it lies between the feet.
+fn shares(stance: &Stance, pressure: DVec2) -> [f64; 2] {
+    match stance.stands {
+        [true, true] => {
+            let line = stance.feet[1].rest - stance.feet[0].rest;
+            let along = (pressure - stance.feet[0].rest).dot(line) / line.length_squared().max(1e-9);
+            let right = along.clamp(0.0, 1.0);
+            [1.0 - right, right]
+        }
+        [true, false] => [1.0, 0.0],
+        [false, true] => [0.0, 1.0],
+        [false, false] => [0.0; 2],
+    }
+}
+
+/// Sets the joints of both legs so that the ground pushes as it should. `strength` fades it in and out, 0 to 1.
+pub(super) fn drive(sense: &Sense, stance: &Stance, ground: &Ground, load_n: &[f64; 2], strength: f64, target: &mut Target) {
+    let me = sense.character();
+    for side in 0..2 {
+        let share = ground.shares[side];
+        let force = ground.force * share;
+        let held = strength * smooth(share / 0.15);
+        let nodes = leg(side);
+        let (ankle, hip) = (me.part(nodes[0]).position, me.part(nodes[2]).position);
+        let line = (hip - ankle).try_normalize().unwrap_or(DVec3::Y);
+        let mut below = (DVec3::ZERO, DVec3::ZERO);
+        for node in nodes {
+            let (part, link) = (me.part(node), sense.body.link(node));
+            // Weight and inertia of the part itself: it goes along as a pendulum about the ground would.
+            let tilt = ((part.centre.y - stance.ground_m) / stance.height_m).clamp(0.0, 1.0);
+            let own = DVec3::new(0.0, -sense.gravity_m_s2, 0.0) - ground.acceleration * tilt;
+            below.0 += own * link.mass_kg;
+            below.1 += part.centre.cross(own * link.mass_kg);
+            let mut torque = -((ground.points[side] - part.position).cross(force) + below.1 - part.position.cross(below.0));
+            let joint = target.joint_mut(node);
+            if node == nodes[0] {
+                // Under the load that the foot really bears, the pressure's centre is then where it should be.
+                torque *= (load_n[side] / force.y.max(1.0)).clamp(0.5, 1.5);
+            }
+            if node == nodes[1] {
+                let axis = part.rotation * DVec3::X;
+                joint.torque += axis * (axis.dot(torque) * held);
+                joint.gain = joint.gain.max(held);
+            } else {
+                torque -= line * line.dot(torque);
+                joint.torque += torque * held;
+                joint.gain = joint.gain.max(held);
+                let damping = if node == nodes[0] { 0.1 } else { 0.3 };
+                yield_across(sense, node, line, held, damping, joint);
+            }
+        }
+    }
+}
+
+/// Lets a joint's spring go but for the turn about `line`, so that torques alone act about the other axes. The spring's
+/// wanted place follows the joint: it still keeps light parts from chattering within a step.
+fn yield_across(sense: &Sense, node: Node, line: DVec3, held: f64, damping: f64, joint: &mut JointTarget) {
+    let Some(parent) = node.parent() else { return };
+    let me = sense.character();
+    let (above, part) = (me.part(parent), me.part(node));
+    let axis = above.rotation.conjugate() * line;
+    let local = (above.rotation.conjugate() * part.rotation).normalize();
+    let error = log(joint.rotation * local.conjugate());
+    let along = axis * axis.dot(error);
+    joint.rotation = (exp(along + (error - along) * (1.0 - held)) * local).normalize();
+    let spin = part.rotation.conjugate() * (part.angular_velocity - above.angular_velocity);
+    joint.velocity = joint.velocity.lerp(spin, held);
+    joint.damping *= 1.0 + (damping - 1.0) * held;
+}
+
+/// 0 below 0, 1 above 1, smooth between.
+pub(super) fn smooth(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}

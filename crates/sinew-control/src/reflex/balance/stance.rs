@@ -1,0 +1,104 @@
+//! What a character stands on, and how its centre of mass moves over that.
+
+use super::polygon::{Polygon, flat};
+use super::sole::{Footing, Sole};
+use crate::reflex::Sense;
+use glam::{DVec2, DVec3};
+use sinew_body::humanoid::{LEGS, Node};
+use sinew_world::Entity;
+
+/// A foot so much higher than the lower one does not stand \[m\].
+const LIFTED_M: f64 = 0.03;
+
+/// Time over which loads are smoothed \[s\].
+const LOAD_SECS: f64 = 0.015;
+
+/// What a character stands on in one step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stance {
+    pub feet: [Footing; 2],
+    /// Which of them stand.
+    pub stands: [bool; 2],
+    pub polygon: Polygon,
+    /// Where the weight rests in quiet standing.
+    pub rest: DVec2,
+    /// Height of the ground \[m\].
+    pub ground_m: f64,
+    /// Height of the centre of mass over it \[m\].
+    pub height_m: f64,
+    /// √(g/h) \[1/s\].
+    pub omega: f64,
+    /// Centre of mass over the ground \[m\].
+    pub centre: DVec2,
+    /// Where the centre of mass would come to rest over: c + v / ω \[m\].
+    pub capture: DVec2,
+}
+
+impl Stance {
+    pub fn of(sense: &Sense, soles: &[Sole; 2], load_n: &[f64; 2]) -> Stance {
+        let me = sense.character();
+        let feet = [0, 1].map(|side| soles[side].under(me.part(LEGS[side].2)));
+        let lowest = feet[0].height_m.min(feet[1].height_m);
+        let least = 0.02 * sense.body.mass_kg() * sense.gravity_m_s2;
+        let stands = [0, 1].map(|side| feet[side].height_m < lowest + LIFTED_M || load_n[side] > least);
+        let (mut points, mut count) = ([DVec2::ZERO; 8], 0);
+        let (mut rest, mut ground, mut feet_down) = (DVec2::ZERO, 0.0, 0.0);
+        for side in 0..2 {
+            if stands[side] {
+                points[count..count + 4].copy_from_slice(&feet[side].corners);
+                count += 4;
+                rest += feet[side].rest;
+                ground += feet[side].height_m;
+                feet_down += 1.0;
+            }
+        }
+        let (rest, ground_m) = (rest / f64::max(feet_down, 1.0), ground / f64::max(feet_down, 1.0));
+        let height_m = (me.centre_of_mass.y - ground_m).max(0.1 * sense.body.stature_m());
+        let omega = (sense.gravity_m_s2 / height_m).sqrt();
+        let centre = flat(me.centre_of_mass);
+        Stance {
+            feet,
+            stands,
+            polygon: Polygon::hull(&points[..count]),
+            rest,
+            ground_m,
+            height_m,
+            omega,
+            centre,
+            capture: centre + flat(me.centre_velocity) / omega,
+        }
+    }
+}
+
+/// Smooths the upward forces on both feet \[N\].
+pub(super) fn follow_loads(sense: &Sense, load_n: &mut [f64; 2]) {
+    let mut now = [0.0; 2];
+    for contact in &sense.frame.contacts {
+        for side in 0..2 {
+            let foot = Entity::Part(sense.own, LEGS[side].2);
+            if contact.b == foot && !is_own(contact.a, sense.own) {
+                now[side] += contact.impulse.y / sense.step_secs;
+            } else if contact.a == foot && !is_own(contact.b, sense.own) {
+                now[side] -= contact.impulse.y / sense.step_secs;
+            }
+        }
+    }
+    for side in 0..2 {
+        load_n[side] += (now[side].max(0.0) - load_n[side]) * sense.step_secs / (LOAD_SECS + sense.step_secs);
+    }
+}
+
+fn is_own(entity: Entity, own: usize) -> bool {
+    matches!(entity, Entity::Part(character, _) if character == own)
+}
+
+/// Back into the world.
+pub(super) fn lift(point: DVec2, height_m: f64) -> DVec3 {
+    DVec3::new(point.x, height_m, point.y)
+}
+
+/// The nodes of a leg from the foot up, with what hangs from each.
+pub(super) fn leg(side: usize) -> [Node; 3] {
+    let (upper, lower, foot) = LEGS[side];
+    [foot, lower, upper]
+}
