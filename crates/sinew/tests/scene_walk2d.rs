@@ -23,7 +23,10 @@ static RAN: LazyLock<Ran> = LazyLock::new(|| {
 fn path(node: Node, from_secs: f64, until_secs: f64) -> Vec<DVec3> {
     let walker = &RAN.recording.characters[0];
     let frame = |secs: f64| ((secs * RAN.recording.motion_hz).round() as usize).min(walker.poses.len());
-    walker.poses[frame(from_secs)..frame(until_secs)].iter().map(|pose| pose.positions(&walker.body)[node.index()]).collect()
+    walker.poses[frame(from_secs)..frame(until_secs)]
+        .iter()
+        .map(|pose| pose.positions(&walker.body)[node.index()])
+        .collect()
 }
 
 /// The feet that came down by a touch of the ground, with the time of each \[s\].
