@@ -1,6 +1,6 @@
 //! What is held: a part fastened to a prop or to another character's part, by a rigid joint or a spring.
 
-use crate::hold_force::rigid_impulse;
+use crate::rows::joint_impulse;
 use crate::{Entity, World};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
@@ -24,7 +24,6 @@ pub struct Held {
 pub(crate) struct Attachment {
     pub held: Held,
     joint: ImpulseJointHandle,
-    fastened: [RigidBodyHandle; 2],
 }
 
 /// Frequency \[Hz\] and damping ratio of a soft hold.
@@ -60,7 +59,7 @@ impl World {
         joint.set_local_frame2(b_at.inverse() * anchor);
         joint.set_contacts_enabled(false);
         let joint = self.engine.joints.insert(one, other, joint, true);
-        self.attachments.push(Attachment { held, joint, fastened: [one, other] });
+        self.attachments.push(Attachment { held, joint });
     }
 
     /// Lets go of something.
@@ -104,7 +103,7 @@ impl World {
                 let motors = &joint.data.motors;
                 DVec3::new(motors[0].impulse, motors[1].impulse, motors[2].impulse).length()
             } else {
-                rigid_impulse(joint, attachment.fastened, bodies)
+                joint_impulse(joint, bodies).length()
             };
             let stays = impulse / step_secs <= limit;
             if !stays {

@@ -1,8 +1,9 @@
 //! A character in the world: its bodies, joints, and what holds them.
 
+use crate::borne::Borne;
 use crate::engine::Engine;
 use crate::extra_shape::ExtraShape;
-use crate::joint::{LimitSpring, write_ball, write_hinge};
+use crate::joint::{LimitSpring, Start, write_ball, write_hinge};
 use crate::ragdoll::{is_hinge, part_inertia};
 use crate::{CharacterSpec, Drive, Pin};
 use glam::{DMat3, DQuat, DVec3};
@@ -35,6 +36,8 @@ pub(crate) struct Character {
     pub outboard: [f64; Node::COUNT],
     pub gravity_scale: f64,
     pub planes: Vec<ImpulseJointHandle>,
+    /// What each joint's parent feels at the start of a step.
+    pub borne: [Borne; Node::COUNT],
     pub extra_shapes: Vec<ExtraShape>,
     limit_spring: LimitSpring,
     stays_awake: bool,
@@ -61,6 +64,7 @@ impl Character {
             outboard,
             gravity_scale: 1.0,
             planes: Vec::new(),
+            borne: [Borne::default(); Node::COUNT],
             extra_shapes: Vec::new(),
             limit_spring,
             stays_awake: false,
@@ -72,15 +76,18 @@ impl Character {
     }
 
     /// Hands springs, limits and pins to the solver.
-    pub fn prepare(&self, engine: &mut Engine, step_secs: f64) {
+    pub fn prepare(&mut self, engine: &mut Engine, step_secs: f64) {
         if self.is_asleep(engine) {
             return;
         }
+        let mut loads = [Load::default(); Node::COUNT];
         for node in Node::ALL {
             if node.parent().is_some() {
-                self.prepare_joint(engine, node, step_secs);
+                self.prepare_joint(engine, node, step_secs, &mut loads);
             }
-            self.prepare_body(engine, node, step_secs);
+        }
+        for node in Node::ALL {
+            self.prepare_body(engine, node, step_secs, &loads[node.index()]);
         }
     }
 
@@ -113,27 +120,34 @@ impl Character {
         engine.bodies.get(self.bodies[node.index()]).map_or(DQuat::IDENTITY, |body| *body.rotation())
     }
 
-    fn prepare_joint(&self, engine: &mut Engine, node: Node, step_secs: f64) {
+    /// Writes a joint's rows, and what its joint begins with into the loads of the two bodies.
+    fn prepare_joint(&mut self, engine: &mut Engine, node: Node, step_secs: f64, loads: &mut [Load; Node::COUNT]) {
         let Some(parent) = node.parent() else { return };
+        let sub_step_secs = step_secs / engine.parameters.num_solver_iterations as f64;
         let parent_rotation = self.rotation(engine, parent);
         let local = (parent_rotation.conjugate() * self.rotation(engine, node)).normalize();
         let drive = self.drives[node.index()];
         let limit = self.body().link(node).limit;
-        let Some(joint) = engine.joints.get_mut(self.joints[node.index()], false) else { return };
+        let (weight_n, stature_m) = (self.body().mass_kg() * 9.81, self.body().stature_m());
+        let handle = self.joints[node.index()];
+        let place = engine.bodies.get(self.bodies[node.index()]).map_or(DVec3::ZERO, RigidBody::translation);
+        let borne = &mut self.borne[node.index()];
+        let Some(joint) = engine.joints.get(handle) else { return };
+        *borne = borne.after(joint, &engine.bodies, sub_step_secs).handed_on(weight_n, stature_m);
+        let Some(joint) = engine.joints.get_mut(handle, false) else { return };
         let write = if is_hinge(node) { write_hinge } else { write_ball };
-        write(&mut joint.data, &limit, &self.limit_spring, &drive, local, step_secs);
-        if drive.torque != DVec3::ZERO {
-            for (part, torque) in [(node, drive.torque), (parent, -drive.torque)] {
-                if let Some(body) = engine.bodies.get_mut(self.bodies[part.index()]) {
-                    body.add_torque(torque, true);
-                }
-            }
-        }
+        let start = Start { step_secs, sub_step_secs, torque: parent_rotation.conjugate() * borne.torque };
+        let torque = write(&mut joint.data, &limit, &self.limit_spring, &drive, local, start);
+        borne.torque = parent_rotation * torque;
+        loads[parent.index()].add(borne.force, place, borne.torque - drive.torque);
+        loads[node.index()].add(-borne.force, place, drive.torque - borne.torque);
     }
 
-    fn prepare_body(&self, engine: &mut Engine, node: Node, step_secs: f64) {
+    fn prepare_body(&self, engine: &mut Engine, node: Node, step_secs: f64, load: &Load) {
         let gravity = engine.gravity * self.gravity_scale;
         let Some(body) = engine.bodies.get_mut(self.bodies[node.index()]) else { return };
+        body.add_force(load.force, false);
+        body.add_torque(load.moment - body.center_of_mass().cross(load.force), false);
         match (self.holds[node.index()], self.pins[node.index()]) {
             (Hold::Drifting, _) => {
                 let kept = libm::exp(-step_secs / DRIFT_SECS);
@@ -147,6 +161,20 @@ impl Character {
             }
             _ => {}
         }
+    }
+}
+
+/// Forces on a body: their sum \[N\] and their moment about the world's origin \[N m\].
+#[derive(Clone, Copy, Default)]
+struct Load {
+    force: DVec3,
+    moment: DVec3,
+}
+
+impl Load {
+    fn add(&mut self, force: DVec3, at: DVec3, torque: DVec3) {
+        self.force += force;
+        self.moment += at.cross(force) + torque;
     }
 }
 

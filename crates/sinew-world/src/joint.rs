@@ -38,6 +38,26 @@ impl LimitSpring {
     }
 }
 
+/// What a joint's rows begin a step with.
+#[derive(Clone, Copy)]
+pub(crate) struct Start {
+    pub step_secs: f64,
+    pub sub_step_secs: f64,
+    /// Torque of the joint on its parent that acts already, in the parent's axes \[N m\].
+    pub torque: DVec3,
+}
+
+impl Start {
+    /// The torque that a drive's joint begins with: none for springs that a step cannot follow, whose torque of one step says
+    /// nothing about that of the next.
+    fn torque_for(&self, drive: &Drive) -> DVec3 {
+        if drive.damping < drive.stiffness * self.step_secs { DVec3::ZERO } else { self.torque }
+    }
+}
+
+/// Largest velocity by which a row's target is shifted \[rad/s\].
+const MOST_SHIFT_RAD_S: f64 = 100.0;
+
 /// One row of a spring: `error` is the turn from wanted to present \[rad\].
 #[derive(Clone, Copy, Default)]
 struct Row {
@@ -53,6 +73,18 @@ impl Row {
     fn of(drive: &Drive, error: f64, velocity: f64, step_secs: f64) -> Row {
         let damping = drive.damping.max(drive.stiffness * step_secs);
         Row { stiffness: drive.stiffness, damping, error, velocity: velocity * drive.damping / damping.max(1e-12) }
+    }
+
+    /// The row when a torque of the joint on its parent \[N m\] acts already, and what of that torque may act: the row adds what is
+    /// missing for the torque of its law, λ (h k + d) = v + …, by a velocity that is that much off.
+    fn begun_with(self, torque: f64, sub_step_secs: f64) -> (Row, f64) {
+        let stiff = self.stiffness * sub_step_secs + self.damping;
+        let most = MOST_SHIFT_RAD_S * stiff;
+        let torque = torque.clamp(-most, most);
+        if stiff <= 0.0 {
+            return (self, 0.0);
+        }
+        (Row { velocity: self.velocity + torque / stiff, ..self }, torque)
     }
 
     /// Both springs as one.
@@ -146,15 +178,15 @@ fn swing_gradient(limit: &Limit, x: f64, z: f64, ratio: f64) -> (f64, f64) {
     (x / (across * across * ratio), z / (along * along * ratio))
 }
 
-/// Writes a ball joint's rows. `local` is the present `parent_from_node`.
+/// Writes a ball joint's rows. `local` is the present `parent_from_node`. Returns what of the start's torque may act.
 pub(crate) fn write_ball(
     joint: &mut GenericJoint,
     limit: &Limit,
     spring: &LimitSpring,
     drive: &Drive,
     local: DQuat,
-    step_secs: f64,
-) {
+    start: Start,
+) -> DVec3 {
     let reach = Reach::of(limit, local);
     let axes = DMat3::from_cols(reach.swing_axis, reach.twist_axis, reach.swing_axis.cross(reach.twist_axis));
     let frame = DQuat::from_mat3(&axes).normalize();
@@ -162,7 +194,7 @@ pub(crate) fn write_ball(
     // Turn from wanted to present, in the parent's axes, then in the rows'.
     let error = frame.conjugate() * log(local * drive.rotation.conjugate());
     let velocity = frame.conjugate() * (local * drive.velocity);
-    let row = |error: f64, velocity: f64| Row::of(drive, error, velocity, step_secs);
+    let row = |error: f64, velocity: f64| Row::of(drive, error, velocity, start.step_secs);
     let rows = [
         row(error.x, velocity.x).with_limit(spring, reach.swing_violation),
         row(error.y, velocity.y).with_limit(spring, reach.twist_violation),
@@ -171,37 +203,43 @@ pub(crate) fn write_ball(
     // With both frames equal now, the solver sees no angle at the step's start, and each row's target is its error.
     joint.local_frame1.rotation = frame;
     joint.local_frame2.rotation = (local.conjugate() * frame).normalize();
-    for (axis, row) in [JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ].into_iter().zip(rows) {
+    let mut begun = (frame.conjugate() * start.torque_for(drive)).to_array();
+    for (at, axis) in [JointAxis::AngX, JointAxis::AngY, JointAxis::AngZ].into_iter().enumerate() {
+        let (row, torque) = rows[at].begun_with(begun[at], start.sub_step_secs);
+        begun[at] = torque;
         set(joint, axis, -row.error, row);
     }
     stop(joint, JointAxis::AngX, reach.swing_violation, 1.0);
     stop(joint, JointAxis::AngY, reach.twist_violation, 1.0);
+    frame * DVec3::from_array(begun)
 }
 
-/// Writes a hinge's row, about X of both frames.
+/// Writes a hinge's row, about X of both frames; otherwise as [`write_ball`].
 pub(crate) fn write_hinge(
     joint: &mut GenericJoint,
     limit: &Limit,
     spring: &LimitSpring,
     drive: &Drive,
     local: DQuat,
-    step_secs: f64,
-) {
+    start: Start,
+) -> DVec3 {
     let angle_of = |rotation: DQuat| 2.0 * libm::atan2(rotation.x, rotation.w);
     let centre = angle_of(limit.centre);
     let angle = wrap(angle_of(local) - centre);
     let high = angle - limit.swing.x_positive;
     let low = -limit.swing.x_negative - angle;
     let wanted = wrap(angle_of(drive.rotation) - centre);
-    let row = Row::of(drive, angle - wanted, drive.velocity.x, step_secs);
+    let row = Row::of(drive, angle - wanted, drive.velocity.x, start.step_secs);
     let (sign, violation) = if high > low { (1.0, high) } else { (-1.0, low) };
     let mirrored = Row { error: sign * row.error, velocity: sign * row.velocity, ..row }.with_limit(spring, violation);
     let row = Row { error: sign * mirrored.error, velocity: sign * mirrored.velocity, ..mirrored };
     // As with balls, the solver is to see no angle at the step's start; what is wrong about the locked axes stays.
     let (sin, cos) = libm::sincos(angle_of(local) / 2.0);
     joint.local_frame2.rotation = DQuat::from_xyzw(-sin, 0.0, 0.0, cos);
+    let (row, torque) = row.begun_with(start.torque_for(drive).x, start.sub_step_secs);
     set(joint, JointAxis::AngX, -row.error, row);
     stop(joint, JointAxis::AngX, violation, sign);
+    DVec3::X * torque
 }
 
 /// The stop behind a limit's spring, which ends what an impact drives through it within one step \[rad beyond the limit\]: a

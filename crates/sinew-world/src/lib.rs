@@ -4,18 +4,19 @@
 //! its place. This crate knows nothing of where poses come from.
 
 mod attachment;
+mod borne;
 mod character;
 mod check;
 mod drive;
 mod engine;
 mod extra_shape;
 mod frame;
-mod hold_force;
 mod joint;
 mod nearest;
 mod plane;
 mod prop;
 mod ragdoll;
+mod rows;
 mod settings;
 mod solid;
 mod sound;

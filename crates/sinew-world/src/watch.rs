@@ -81,6 +81,7 @@ impl World {
 
     /// The last sound place of every part, at rest.
     fn put_back(&mut self, index: usize) {
+        self.characters[index].borne = Default::default();
         let character = &self.characters[index];
         let known = self.frame.step > 0 && self.frame.characters[index].parts[0] != BodyState::REST;
         let start = character.spec.pose.positions(character.body());

@@ -94,7 +94,7 @@ impl World {
     /// [`World::frame`] afterwards.
     pub fn step(&mut self) {
         let step_secs = self.settings.step_secs();
-        for character in &self.characters {
+        for character in &mut self.characters {
             character.prepare(&mut self.engine, step_secs);
         }
         for prop in &mut self.props {
@@ -210,8 +210,10 @@ impl World {
         let parts = self.characters.iter().flat_map(|character| character.bodies);
         let props = self.props.iter().map(|prop| prop.handle);
         for handle in parts.chain(props) {
-            if let Some(body) = self.engine.bodies.get_mut(handle)
-                && (body.user_force() != DVec3::ZERO || body.user_torque() != DVec3::ZERO)
+            // Whatever is taken mutably the library looks at again.
+            let pushed = |body: &RigidBody| body.user_force() != DVec3::ZERO || body.user_torque() != DVec3::ZERO;
+            if self.engine.bodies.get(handle).is_some_and(pushed)
+                && let Some(body) = self.engine.bodies.get_mut(handle)
             {
                 body.reset_forces(false);
                 body.reset_torques(false);

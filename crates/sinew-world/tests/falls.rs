@@ -126,7 +126,7 @@ fn in_a_fall_limits_give_for_an_instant_and_hardly_ever_far() {
     println!("{falls:.1?}");
     // A limit is a spring with a stop behind it, and a part turns by up to 10 degrees in a step before the stop is there. Who
     // cartwheels onto a straight arm at 3 m/s dislocates the elbow for some hundredths of a second.
-    assert!(within(15.0) >= starts.len() - 1, "{falls:.1?}");
+    assert!(within(20.0) >= starts.len() - 1, "{falls:.1?}");
     assert!(within(60.0) == starts.len(), "{falls:.1?}");
 }
 
