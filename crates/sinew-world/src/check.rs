@@ -45,14 +45,14 @@ impl RagdollReport {
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let (ratio, node) = self.mass_ratio;
-        if !(ratio <= Self::MOST_MASS_RATIO) {
+        if ratio > Self::MOST_MASS_RATIO {
             let name = node.part().name();
             faults.push(format!(
                 "{name} and its neighbour differ in mass by {ratio:.0}: springs between them will sag; make it heavier"
             ));
         }
         let (room, node) = self.room_rad;
-        if !(room >= Self::LEAST_ROOM_RAD) {
+        if room < Self::LEAST_ROOM_RAD {
             let (name, degrees) = (node.part().name(), -room.to_degrees());
             faults.push(format!("{name} rests {degrees:.1}° beyond its limit; widen the limit to the pose"));
         }
@@ -63,11 +63,11 @@ impl RagdollReport {
             faults.push(format!("laid on the ground it does not come to rest within {CHECKED_SECS} s"));
         }
         for (drift, how) in [(self.limp_drift_m, "lying limp"), (self.held_drift_m, "held by springs")] {
-            if !(drift <= Self::MOST_DRIFT_M) {
+            if drift > Self::MOST_DRIFT_M {
                 faults.push(format!("{how} it drifts by {:.2} mm in {CHECKED_SECS} s", drift * 1e3));
             }
         }
-        if !(self.gap_m <= Self::MOST_GAP_M) {
+        if self.gap_m > Self::MOST_GAP_M {
             faults.push(format!("its joints gape by {:.2} mm at rest", self.gap_m * 1e3));
         }
         faults
@@ -126,11 +126,11 @@ pub fn check_ragdoll(spec: &CharacterSpec) -> Result<RagdollReport, SpecError> {
         let Some(parent) = node.parent() else { continue };
         let (own, its) = (body.link(node).mass_kg, body.link(parent).mass_kg);
         let ratio = (own / its).max(its / own);
-        if !(ratio <= mass_ratio.0) {
+        if ratio > mass_ratio.0 {
             mass_ratio = (ratio, node);
         }
         let room = -violation(node, &body.link(node).limit, spec.pose.local(node).normalize());
-        if !(room >= room_rad.0) {
+        if room < room_rad.0 {
             room_rad = (room, node);
         }
     }

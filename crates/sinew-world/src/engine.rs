@@ -24,15 +24,17 @@ pub(crate) struct Engine {
 
 impl Engine {
     pub fn new(settings: &WorldSettings) -> Engine {
-        let mut parameters = IntegrationParameters::default();
-        parameters.dt = settings.step_secs();
-        parameters.num_solver_iterations = settings.solver_iterations;
-        parameters.contact_clustering = false;
-        // Springs act through the whole body: one sweep a sub-step hands them on by one joint only, and feet that hold 80 kg
-        // by an ankle's spring bounce.
-        parameters.num_internal_pgs_iterations = settings.solver_sweeps;
-        parameters.num_internal_stabilization_iterations = settings.solver_sweeps.div_ceil(4);
-        parameters.friction_model = FrictionModel::Coulomb;
+        let parameters = IntegrationParameters {
+            dt: settings.step_secs(),
+            num_solver_iterations: settings.solver_iterations,
+            contact_clustering: false,
+            // Springs act through the whole body: one sweep a sub-step hands on by one joint only what has changed, and feet that
+            // hold 80 kg by an ankle's spring bounce.
+            num_internal_pgs_iterations: settings.solver_sweeps,
+            num_internal_stabilization_iterations: settings.solver_sweeps.div_ceil(4),
+            friction_model: FrictionModel::Coulomb,
+            ..IntegrationParameters::default()
+        };
         let mut engine = Engine {
             pipeline: PhysicsPipeline::new(),
             parameters,

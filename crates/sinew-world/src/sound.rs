@@ -112,8 +112,8 @@ pub(crate) fn settings(settings: WorldSettings) -> WorldSettings {
 
 /// The surface, its numbers within their bounds.
 pub(crate) fn surface(surface: Surface) -> Surface {
-    // `max` gives the bound for what is not a number.
-    Surface { friction: surface.friction.max(0.0).min(10.0), bounce: surface.bounce.max(0.0).min(1.0) }
+    let within = |number: f64, most: f64| if number.is_nan() { 0.0 } else { number.clamp(0.0, most) };
+    Surface { friction: within(surface.friction, 10.0), bounce: within(surface.bounce, 1.0) }
 }
 
 /// Whether a shape has sizes that a thing in the world can have.

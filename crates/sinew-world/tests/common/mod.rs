@@ -1,5 +1,6 @@
 //! Bodies, poses and worlds that the claims share.
 #![allow(dead_code, reason = "each file of claims uses its own share")]
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
