@@ -1,4 +1,5 @@
 //! The ragdoll's self-check.
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
 

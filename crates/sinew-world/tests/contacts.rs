@@ -1,4 +1,5 @@
 //! What touches is told, with whom and how hard.
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
 

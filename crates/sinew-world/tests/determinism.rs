@@ -1,4 +1,5 @@
 //! Same input, same bits.
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
 

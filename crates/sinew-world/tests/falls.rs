@@ -1,4 +1,5 @@
 //! What a limp body does when it falls.
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
 

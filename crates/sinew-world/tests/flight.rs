@@ -1,4 +1,5 @@
 //! What has no support obeys Newton.
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Planes, attachments, switched forces, gravity: the world's modified physics.
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Nothing that is stated from outside makes the world panic, hang or hand out a number that is none.
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Springs of joints and pins hold at any gain.
+#![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
 
