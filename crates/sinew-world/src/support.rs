@@ -32,7 +32,7 @@ pub fn keep_hull(points: &mut Vec<DVec3>, scratch: &mut Vec<DVec3>) {
 }
 
 /// Distance over the ground from a point to the polygon's edge \[m\]: positive inside, negative outside; −∞ without a
-/// polygon. `corners` as [`keep_hull`] leaves them.
+/// polygon. `corners` as in [`CharacterFrame::support`](crate::CharacterFrame::support).
 pub fn margin(corners: &[DVec3], point: DVec3) -> f64 {
     let flat = |v: DVec3| DVec3::new(v.x, 0.0, v.z);
     let point = flat(point);
