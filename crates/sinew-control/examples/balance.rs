@@ -46,15 +46,15 @@ fn place() -> Place {
 fn table() {
     let halvings = env("HALVINGS", 7.0) as usize;
     let mut standing = make();
-    standing.run(1.0, None);
+    standing.run(pushed::PUSH_AT_SECS, None);
     let mut worst = f64::INFINITY;
     for azimuth_deg in [0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0] {
         let push = Push { azimuth_deg, impulse_n_s: 0.0, for_secs: 0.1, place: place() };
         let bound = standing.bound_n_s(push.direction());
-        let stood = stood_n_s(&make, push, bound, halvings);
+        let (stood, end) = stood_n_s(&make, push, bound, halvings);
         worst = worst.min(stood / bound);
         println!(
-            "{azimuth_deg:4} reach {:.3} m bound {bound:6.1} N s stood {stood:6.1} N s {:4.0} %",
+            "{azimuth_deg:4} reach {:.3} m bound {bound:6.1} N s stood {stood:6.1} N s {:4.0} % then {end:?}",
             standing.reach_m(push.direction()),
             100.0 * stood / bound
         );
@@ -120,21 +120,31 @@ fn push(azimuth_deg: f64, impulse_n_s: f64, path: Option<&str>) {
     for step in 0..(240.0 * seconds) as usize {
         standing.step(Some(&push));
         let time = standing.world.frame().time_secs;
-        let every = if (1.0..2.0).contains(&time) { 12 } else { 120 };
+        let every = if (2.0..3.0).contains(&time) { 12 } else { 120 };
         if step % every == 0 {
             if std::env::var("QUIET").is_err() {
                 report(&standing);
             }
         }
-        if (0.95..3.5).contains(&time) && step % 24 == 0 {
+        if (1.95..4.5).contains(&time) && step % 24 == 0 {
             let me = &standing.world.frame().characters[0];
-            let pushing = (1.0..1.12).contains(&time) && impulse_n_s > 0.0;
+            let pushing = (2.0..2.12).contains(&time) && impulse_n_s > 0.0;
             let arrows = if pushing {
-                vec![Arrow { at: me.part(Node::Hips).centre.with_y(me.centre_of_mass.y), force_n: push.direction() * (impulse_n_s / 0.1), label: String::new() }]
+                vec![Arrow {
+                    at: me.part(Node::Hips).centre.with_y(me.centre_of_mass.y),
+                    force_n: push.direction() * (impulse_n_s / 0.1),
+                    label: String::new(),
+                }]
             } else {
                 Vec::new()
             };
-            panels.push(Panel { time_secs: time, figure: figure(&standing), follow: Some(DVec3::ZERO), arrows, ..Panel::default() });
+            panels.push(Panel {
+                time_secs: time,
+                figure: figure(&standing),
+                follow: Some(DVec3::ZERO),
+                arrows,
+                ..Panel::default()
+            });
         }
     }
     if let Some(path) = path {

@@ -9,6 +9,9 @@ use sinew_control::tracker::{JointGain, PdTracker};
 use sinew_control::{JointTarget, Target};
 use sinew_world::{CharacterSpec, Surface, World, WorldSettings, hips_over_soles_m};
 
+/// When pushes begin \[s\]: the body has leant to where its weight rests.
+pub const PUSH_AT_SECS: f64 = 2.0;
+
 /// Where a push acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
@@ -18,7 +21,7 @@ pub enum Place {
     Chest,
 }
 
-/// A push in a horizontal direction, at 1 s.
+/// A push in a horizontal direction, at [`PUSH_AT_SECS`].
 #[derive(Clone, Copy, Debug)]
 pub struct Push {
     /// From straight ahead towards the left \[degrees\].
@@ -98,11 +101,9 @@ impl Standing {
         self.tracker.apply(&mut self.world, 0, &self.target);
         if let Some(push) = push {
             let (time, me) = (self.world.frame().time_secs, &self.world.frame().characters[0]);
-            if time > 1.0 - 1e-9 && time < 1.0 + push.for_secs - 1e-9 {
+            if time > PUSH_AT_SECS - 1e-9 && time < PUSH_AT_SECS + push.for_secs - 1e-9 {
                 let (node, point) = match push.place {
-                    Place::Centre => {
-                        (Node::Hips, me.part(Node::Hips).centre.with_y(me.centre_of_mass.y))
-                    }
+                    Place::Centre => (Node::Hips, me.part(Node::Hips).centre.with_y(me.centre_of_mass.y)),
                     Place::Chest => (Node::Chest, me.part(Node::Chest).centre),
                 };
                 let force = push.direction() * (push.impulse_n_s / push.for_secs);
@@ -151,33 +152,50 @@ impl Standing {
     }
 }
 
-/// Whether a character is up, quiet and on its spot some seconds after a push.
-pub fn stands(make: &dyn Fn() -> Standing, push: &Push) -> bool {
+/// What a push came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// Up, quiet, and on its spot.
+    Stands,
+    Fell,
+    /// It stands, but a foot is elsewhere.
+    Stepped,
+    /// It stands on its spot, but moves or leans elsewhere than before.
+    Unquiet,
+}
+
+/// What has become of a character six seconds after a push.
+pub fn outcome(make: &dyn Fn() -> Standing, push: &Push) -> Outcome {
     let mut standing = make();
-    standing.run(1.0, None);
+    standing.run(PUSH_AT_SECS, None);
     let before = standing.world.frame().characters[0].centre_of_mass;
     for _ in 0..24 {
         standing.run(0.25, Some(push));
         if !standing.is_up(before.y) {
-            return false;
+            return Outcome::Fell;
         }
     }
     let me = &standing.world.frame().characters[0];
-    me.centre_velocity.length() < 0.03 && (me.centre_of_mass - before).length() < 0.03 && standing.slid_m() < 0.05
+    if standing.slid_m() > 0.05 {
+        Outcome::Stepped
+    } else if me.centre_velocity.length() > 0.03 || (me.centre_of_mass - before).length() > 0.03 {
+        Outcome::Unquiet
+    } else {
+        Outcome::Stands
+    }
 }
 
 /// The impulse up to which a character stands, found by halving \[N s\].
-pub fn stood_n_s(make: &dyn Fn() -> Standing, push: Push, bound_n_s: f64, halvings: usize) -> f64 {
-    let (mut stood, mut fell) = (0.0, 2.0 * bound_n_s);
+pub fn stood_n_s(make: &dyn Fn() -> Standing, push: Push, bound_n_s: f64, halvings: usize) -> (f64, Outcome) {
+    let (mut stood, mut fell, mut end) = (0.0, 2.0 * bound_n_s, Outcome::Fell);
     for _ in 0..halvings {
         let impulse_n_s = 0.5 * (stood + fell);
-        if stands(make, &Push { impulse_n_s, ..push }) {
-            stood = impulse_n_s;
-        } else {
-            fell = impulse_n_s;
+        match outcome(make, &Push { impulse_n_s, ..push }) {
+            Outcome::Stands => stood = impulse_n_s,
+            other => (fell, end) = (impulse_n_s, other),
         }
     }
-    stood
+    (stood, end)
 }
 
 pub const KNEES_BENT: Turns = &[

@@ -64,7 +64,14 @@ fn shares(stance: &Stance, pressure: DVec2) -> [f64; 2] {
 }
 
 /// Sets the joints of both legs so that the ground pushes as it should. `strength` fades it in and out, 0 to 1.
-pub(super) fn drive(sense: &Sense, stance: &Stance, ground: &Ground, load_n: &[f64; 2], strength: f64, target: &mut Target) {
+pub(super) fn drive(
+    sense: &Sense,
+    stance: &Stance,
+    ground: &Ground,
+    load_n: &[f64; 2],
+    strength: f64,
+    target: &mut Target,
+) {
     let me = sense.character();
     for side in 0..2 {
         let share = ground.shares[side];
@@ -81,7 +88,8 @@ pub(super) fn drive(sense: &Sense, stance: &Stance, ground: &Ground, load_n: &[f
             let own = DVec3::new(0.0, -sense.gravity_m_s2, 0.0) - ground.acceleration * tilt;
             below.0 += own * link.mass_kg;
             below.1 += part.centre.cross(own * link.mass_kg);
-            let mut torque = -((ground.points[side] - part.position).cross(force) + below.1 - part.position.cross(below.0));
+            let mut torque =
+                -((ground.points[side] - part.position).cross(force) + below.1 - part.position.cross(below.0));
             let joint = target.joint_mut(node);
             if node == nodes[0] {
                 // Under the load that the foot really bears, the pressure's centre is then where it should be.
@@ -96,23 +104,46 @@ pub(super) fn drive(sense: &Sense, stance: &Stance, ground: &Ground, load_n: &[f
                 joint.torque += torque * held;
                 joint.gain = joint.gain.max(held);
                 let damping = if node == nodes[0] { 0.1 } else { 0.3 };
-                yield_across(sense, node, line, held, damping, joint);
+                // A foot that should stand but bears nothing goes back to its print, level.
+                let astray = match (stance.stands[side], node == nodes[0]) {
+                    (false, _) => None,
+                    (true, true) => Some((part.rotation * DVec3::Y).cross(DVec3::Y)),
+                    (true, false) => {
+                        let print = (stance.feet[side].ankle - hip).try_normalize().unwrap_or(line);
+                        Some(print.cross(line))
+                    }
+                };
+                yield_across(sense, node, line, astray, held, damping, joint);
             }
         }
     }
 }
 
-/// Lets a joint's spring go but for the turn about `line`, so that torques alone act about the other axes. The spring's
-/// wanted place follows the joint: it still keeps light parts from chattering within a step.
-fn yield_across(sense: &Sense, node: Node, line: DVec3, held: f64, damping: f64, joint: &mut JointTarget) {
+/// Lets a joint's spring go but for the turn about `line`, so that torques alone act about the other axes as far as the leg is
+/// `held` by them. The spring's wanted place follows the joint: it still keeps light parts from chattering within a step.
+/// Without a load the spring aims at the pose, or turns the joint by `astray` (world axes).
+fn yield_across(
+    sense: &Sense,
+    node: Node,
+    line: DVec3,
+    astray: Option<DVec3>,
+    held: f64,
+    damping: f64,
+    joint: &mut JointTarget,
+) {
     let Some(parent) = node.parent() else { return };
     let me = sense.character();
     let (above, part) = (me.part(parent), me.part(node));
-    let axis = above.rotation.conjugate() * line;
-    let local = (above.rotation.conjugate() * part.rotation).normalize();
+    let parent_from_world = above.rotation.conjugate();
+    let axis = parent_from_world * line;
+    let local = (parent_from_world * part.rotation).normalize();
     let error = log(joint.rotation * local.conjugate());
     let along = axis * axis.dot(error);
-    joint.rotation = (exp(along + (error - along) * (1.0 - held)) * local).normalize();
+    let across = match astray {
+        Some(turn) => parent_from_world * (turn - line * line.dot(turn)),
+        None => error - along,
+    };
+    joint.rotation = (exp(along + across * (1.0 - held)) * local).normalize();
     let spin = part.rotation.conjugate() * (part.angular_velocity - above.angular_velocity);
     joint.velocity = joint.velocity.lerp(spin, held);
     joint.damping *= 1.0 + (damping - 1.0) * held;

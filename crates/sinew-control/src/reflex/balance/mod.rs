@@ -1,5 +1,6 @@
 //! Standing balance by ankles, hips and arms.
 
+mod flywheel;
 mod legs;
 mod polygon;
 mod settings;
@@ -11,10 +12,9 @@ pub use settings::BalanceSettings;
 
 use super::{Reflex, Sense};
 use crate::Target;
-use glam::DVec2;
 use legs::{Ground, smooth};
 use sinew_body::humanoid::{Body, LEGS, Node};
-use sole::Sole;
+use sole::{Footing, Sole};
 use stance::Stance;
 use trunk::Trunk;
 
@@ -24,7 +24,12 @@ pub struct Balance {
     settings: BalanceSettings,
     soles: [Sole; 2],
     trunk: Trunk,
+    /// Upward forces on the feet, smoothed \[N\].
     load_n: [f64; 2],
+    /// How far each foot is taken for one that stands, 0 to 1.
+    bearing: [f64; 2],
+    /// Where each foot last stood.
+    prints: Option<[Footing; 2]>,
 }
 
 impl Balance {
@@ -32,7 +37,14 @@ impl Balance {
     pub fn new(body: &Body, settings: BalanceSettings) -> Balance {
         let margin_m = settings.edge_margin * body.stature_m();
         let sole = |side: usize| Sole::of(body, LEGS[side].2, margin_m, settings.rest_share);
-        Balance { settings, soles: [sole(0), sole(1)], trunk: Trunk::of(body), load_n: [0.0; 2] }
+        Balance {
+            settings,
+            soles: [sole(0), sole(1)],
+            trunk: Trunk::of(body),
+            load_n: [0.0; 2],
+            bearing: [0.0; 2],
+            prints: None,
+        }
     }
 }
 
@@ -46,24 +58,29 @@ impl Reflex for Balance {
             return;
         }
         stance::follow_loads(sense, &mut self.load_n);
-        let stance = Stance::of(sense, &self.soles, &self.load_n);
+        stance::follow_bearing(sense, &self.soles, &self.load_n, target, &mut self.bearing);
+        let lifted_m = self.follow_prints(sense);
+        let Some(prints) = &self.prints else { return };
+        let stance = Stance::of(sense, prints, &self.bearing);
         let strength = self.strength(sense, &stance);
         if strength <= 0.0 {
+            self.trunk.reset();
             return;
         }
         let wanted = stance.capture + (stance.capture - stance.rest) * self.settings.firmness;
         let pressure = stance.polygon.nearest(wanted);
-        let moment = self.trunk.moment(sense, &stance, &self.settings, wanted - pressure, target);
+        let beyond = wanted - pressure;
+        let moment = self.trunk.moment(sense, &stance, &self.settings, beyond, lifted_m, target);
         let ground = Ground::under(sense, &stance, pressure, moment);
         legs::drive(sense, &stance, &ground, &self.load_n, strength, target);
-        for node in [Node::Chest, Node::Neck, Node::Head] {
-            let joint = target.joint_mut(node);
-            joint.gain = joint.gain.max(strength);
-        }
+        self.trunk.drive(sense, strength, target);
     }
 
     fn reset(&mut self) {
         self.load_n = [0.0; 2];
+        self.bearing = [0.0; 2];
+        self.prints = None;
+        self.trunk.reset();
     }
 }
 
@@ -72,8 +89,26 @@ impl Balance {
     fn strength(&self, sense: &Sense, stance: &Stance) -> f64 {
         let weight = sense.body.mass_kg() * sense.gravity_m_s2;
         let borne = (self.load_n[0] + self.load_n[1]) / weight;
-        let over: DVec2 = stance.polygon.nearest(stance.centre);
+        let over = stance.polygon.nearest(stance.centre);
         let out = over.distance(stance.centre) / stance.height_m;
         smooth(borne / 0.3) * (1.0 - smooth((out - 0.2) / 0.15))
+    }
+
+    /// Takes down where feet stand; the print of one that tips up or is lifted without being meant to is kept, so that it
+    /// comes back there. Returns how high such a foot is over its print \[m\].
+    fn follow_prints(&mut self, sense: &Sense) -> f64 {
+        let me = sense.character();
+        let now = [0, 1].map(|side| self.soles[side].under(me.part(LEGS[side].2)));
+        let least = 0.25 * sense.body.mass_kg() * sense.gravity_m_s2;
+        let prints = self.prints.get_or_insert(now);
+        let mut lifted_m = 0.0;
+        for side in 0..2 {
+            if self.load_n[side] > least || self.bearing[side] < 0.5 {
+                prints[side] = now[side];
+            } else {
+                lifted_m = f64::max(lifted_m, now[side].height_m - prints[side].height_m);
+            }
+        }
+        lifted_m
     }
 }

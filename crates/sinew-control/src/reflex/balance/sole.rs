@@ -1,8 +1,9 @@
 //! A foot as something to stand on.
 
 use super::polygon::{Polygon, flat};
+use crate::Target;
 use glam::{DQuat, DVec2, DVec3};
-use sinew_body::humanoid::{Body, Node};
+use sinew_body::humanoid::{Body, LEGS, Node};
 use sinew_world::{BodyState, Form, part_solid};
 
 /// The underside of a foot, in the foot's frame.
@@ -23,6 +24,8 @@ pub(super) struct Footing {
     pub height_m: f64,
     /// `world_from_foot` if the foot lay flat.
     pub level: DQuat,
+    /// Where the ankle is \[m\].
+    pub ankle: DVec3,
 }
 
 impl Sole {
@@ -41,6 +44,17 @@ impl Sole {
         }
     }
 
+    /// Height over the hips at which the wanted pose has the sole, were the hips upright \[m\].
+    pub fn meant_height_m(&self, body: &Body, target: &Target, side: usize) -> f64 {
+        let (upper, lower, foot) = LEGS[side];
+        let (mut place, mut turn) = (DVec3::ZERO, DQuat::IDENTITY);
+        for node in [upper, lower, foot] {
+            place += turn * body.link(node).offset;
+            turn *= target.joint(node).rotation;
+        }
+        (place + turn * self.middle).y
+    }
+
     /// Under a foot.
     pub fn under(&self, foot: &BodyState) -> Footing {
         let place = |point: DVec3| foot.position + foot.rotation * point;
@@ -51,6 +65,7 @@ impl Sole {
             rest: flat(place(self.middle)),
             height_m: place(self.middle).y,
             level,
+            ankle: foot.position,
         }
     }
 }

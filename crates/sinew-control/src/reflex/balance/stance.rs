@@ -2,16 +2,23 @@
 
 use super::polygon::{Polygon, flat};
 use super::sole::{Footing, Sole};
+use crate::Target;
 use crate::reflex::Sense;
 use glam::{DVec2, DVec3};
 use sinew_body::humanoid::{LEGS, Node};
 use sinew_world::Entity;
 
-/// A foot so much higher than the lower one does not stand \[m\].
-const LIFTED_M: f64 = 0.03;
+/// A foot so much higher than the lower one is lifted, whatever the pose wants \[m\].
+const LIFTED_M: f64 = 0.12;
+
+/// A foot that the pose wants so much higher than the other is not meant to stand \[m\].
+const MEANT_LIFTED_M: f64 = 0.05;
 
 /// Time over which loads are smoothed \[s\].
 const LOAD_SECS: f64 = 0.015;
+
+/// Time over which a foot comes to be taken for one that stands \[s\].
+const BEARING_SECS: f64 = 0.1;
 
 /// What a character stands on in one step.
 #[derive(Clone, Copy, Debug)]
@@ -35,29 +42,27 @@ pub(super) struct Stance {
 }
 
 impl Stance {
-    pub fn of(sense: &Sense, soles: &[Sole; 2], load_n: &[f64; 2]) -> Stance {
+    /// `bearing` is how far each foot is taken for one that stands, 0 to 1.
+    pub fn of(sense: &Sense, feet: &[Footing; 2], bearing: &[f64; 2]) -> Stance {
         let me = sense.character();
-        let feet = [0, 1].map(|side| soles[side].under(me.part(LEGS[side].2)));
-        let lowest = feet[0].height_m.min(feet[1].height_m);
-        let least = 0.02 * sense.body.mass_kg() * sense.gravity_m_s2;
-        let stands = [0, 1].map(|side| feet[side].height_m < lowest + LIFTED_M || load_n[side] > least);
+        let stands = bearing.map(|bearing| bearing > 0.5);
         let (mut points, mut count) = ([DVec2::ZERO; 8], 0);
-        let (mut rest, mut ground, mut feet_down) = (DVec2::ZERO, 0.0, 0.0);
+        let (mut rest, mut ground, mut total) = (DVec2::ZERO, 0.0, 0.0);
         for side in 0..2 {
             if stands[side] {
                 points[count..count + 4].copy_from_slice(&feet[side].corners);
                 count += 4;
-                rest += feet[side].rest;
-                ground += feet[side].height_m;
-                feet_down += 1.0;
             }
+            rest += feet[side].rest * bearing[side];
+            ground += feet[side].height_m * bearing[side];
+            total += bearing[side];
         }
-        let (rest, ground_m) = (rest / f64::max(feet_down, 1.0), ground / f64::max(feet_down, 1.0));
+        let (rest, ground_m) = (rest / total.max(1e-6), ground / total.max(1e-6));
         let height_m = (me.centre_of_mass.y - ground_m).max(0.1 * sense.body.stature_m());
         let omega = (sense.gravity_m_s2 / height_m).sqrt();
         let centre = flat(me.centre_of_mass);
         Stance {
-            feet,
+            feet: *feet,
             stands,
             polygon: Polygon::hull(&points[..count]),
             rest,
@@ -85,6 +90,27 @@ pub(super) fn follow_loads(sense: &Sense, load_n: &mut [f64; 2]) {
     }
     for side in 0..2 {
         load_n[side] += (now[side].max(0.0) - load_n[side]) * sense.step_secs / (LOAD_SECS + sense.step_secs);
+    }
+}
+
+/// Which feet stand: those that the pose wants on the ground, or that bear weight, and that are near it.
+pub(super) fn follow_bearing(
+    sense: &Sense,
+    soles: &[Sole; 2],
+    load_n: &[f64; 2],
+    target: &Target,
+    bearing: &mut [f64; 2],
+) {
+    let me = sense.character();
+    let weight = sense.body.mass_kg() * sense.gravity_m_s2;
+    let meant = [0, 1].map(|side| soles[side].meant_height_m(sense.body, target, side));
+    let is = [0, 1].map(|side| soles[side].under(me.part(LEGS[side].2)).height_m);
+    for side in 0..2 {
+        let meant = meant[side] < meant[1 - side] + MEANT_LIFTED_M;
+        let near = is[side] < is[1 - side] + LIFTED_M;
+        let stands = near && (meant || load_n[side] > 0.1 * weight);
+        let goal = if stands { 1.0 } else { 0.0 };
+        bearing[side] += (goal - bearing[side]) * sense.step_secs / (BEARING_SECS + sense.step_secs);
     }
 }
 

@@ -1,76 +1,115 @@
 //! Hips and trunk: upright when all is well, thrown after the fall when the feet alone cannot stop it.
 
+use super::BalanceSettings;
+use super::flywheel::{FORESIGHT_SECS, Flywheel, Swing};
 use super::legs::smooth;
 use super::stance::{Stance, leg};
-use super::BalanceSettings;
 use crate::Target;
 use crate::reflex::Sense;
 use glam::{DQuat, DVec2, DVec3};
-use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_body::humanoid::{Body, Node, Pose, exp};
 
 /// The upper body on its hips.
 #[derive(Clone, Debug)]
 pub(super) struct Trunk {
     /// Moment of inertia of hips, trunk, head and arms about the hip joints \[kg m²\].
     inertia: f64,
+    /// Change of the whole body's angular momentum about its centre of mass for a turn of the chest on the hips \[kg m²\].
+    chest_inertia: f64,
+    /// Sideways bend of the chest, about the facing.
+    bend: Flywheel,
 }
 
 impl Trunk {
     pub fn of(body: &Body) -> Trunk {
         let positions = Pose::STANDING.positions(body);
-        let axis = positions[Node::LeftUpperLeg.index()].y;
-        let inertia = Node::ALL
-            .into_iter()
-            .filter(|node| !node.is_leg())
-            .map(|node| {
-                let link = body.link(node);
-                let arm = positions[node.index()].y + link.centre.y - axis;
-                link.inertia.x + link.mass_kg * arm * arm
-            })
-            .sum();
-        Trunk { inertia }
+        let centre = body.centre_of_mass(&Pose::STANDING).y;
+        let (hip, waist) = (positions[Node::LeftUpperLeg.index()].y, positions[Node::Chest.index()].y);
+        let (mut inertia, mut chest_inertia) = (0.0, 0.0);
+        for node in Node::ALL.into_iter().filter(|node| !node.is_leg()) {
+            let link = body.link(node);
+            let place = positions[node.index()] + link.centre;
+            inertia += link.inertia.x + link.mass_kg * (place.y - hip) * (place.y - hip);
+            if node != Node::Hips {
+                let lever = (place.y - waist) * (place.y - centre) + place.x * place.x;
+                chest_inertia += link.inertia.z + link.mass_kg * lever;
+            }
+        }
+        Trunk { inertia, chest_inertia: chest_inertia.max(0.1 * inertia), bend: Flywheel::default() }
+    }
+
+    pub fn reset(&mut self) {
+        self.bend = Flywheel::default();
     }
 
     /// Moment of the ground about the centre of mass \[N m\]. `beyond` is how far the centre of pressure would have to lie outside
-    /// the soles \[m\].
-    pub fn moment(&self, sense: &Sense, stance: &Stance, settings: &BalanceSettings, beyond: DVec2, target: &Target) -> DVec3 {
-        let hips = sense.character().part(Node::Hips);
-        let (up, wanted) = (hips.rotation * DVec3::Y, wanted_up(sense, stance, target));
-        let spin = DVec3::new(hips.angular_velocity.x, 0.0, hips.angular_velocity.z);
-        let omega = std::f64::consts::TAU * settings.upright_hz;
-        let error = up.cross(wanted);
-        let upright = (error * (omega * omega) - spin * (2.0 * settings.upright_damping * omega)) * self.inertia;
-
+    /// the soles, `lifted_m` how high a foot is that should stand \[m\].
+    pub fn moment(
+        &mut self,
+        sense: &Sense,
+        stance: &Stance,
+        settings: &BalanceSettings,
+        beyond: DVec2,
+        lifted_m: f64,
+        target: &Target,
+    ) -> DVec3 {
+        let me = sense.character();
+        let (facing, left) = (me.facing, me.left());
         let weight = sense.body.mass_kg() * sense.gravity_m_s2;
         let most = settings.trunk_moment * weight * stance.height_m;
         let throw = (DVec3::new(beyond.y, 0.0, -beyond.x) * weight).clamp_length_max(most);
-        let Some(axis) = throw.try_normalize() else { return upright.with_y(0.0) };
-        // How far it has leant about that axis, and will have soon.
-        let lean = -error.dot(axis) + 0.15 * spin.dot(axis);
-        let room = self.room(sense, settings, axis);
-        let thrown = smooth(beyond.length() / 0.02) * (1.0 - smooth(lean / room * 2.0 - 1.0));
-        (throw * thrown + upright * (1.0 - thrown)).with_y(0.0)
+        let urgency = smooth(beyond.length() / 0.02);
+
+        let hips = me.part(Node::Hips);
+        let error = (hips.rotation * DVec3::Y).cross(wanted_up(stance, target));
+        let omega = std::f64::consts::TAU * settings.upright_hz;
+        let upright = |axis: DVec3| {
+            let spin = hips.angular_velocity.dot(axis);
+            self.inertia * omega * (omega * error.dot(axis) - 2.0 * settings.upright_damping * spin)
+        };
+
+        // Forward and backward the hips turn on the legs.
+        let pitch_throw = throw.dot(left);
+        let room = settings.trunk_lean[if pitch_throw > 0.0 { 0 } else { 1 }];
+        let lean = (-error.dot(left) + FORESIGHT_SECS * hips.angular_velocity.dot(left)) * pitch_throw.signum();
+        let thrown = urgency * (1.0 - smooth(2.0 * lean / room - 1.0));
+        let pitch = pitch_throw * thrown + upright(left) * (1.0 - thrown);
+
+        // Sideways the legs hold the hips level as long as both stand, and the chest bends at the waist.
+        let swing = Swing {
+            inertia: self.chest_inertia,
+            moment: throw.dot(facing),
+            urgency,
+            room: settings.trunk_lean[2],
+            omega,
+        };
+        let roll = self.bend.step(&swing, sense.step_secs) + upright(facing) * smooth(lifted_m / 0.01);
+        left * pitch + facing * roll
     }
 
-    /// How far the trunk may lean about an axis.
-    fn room(&self, sense: &Sense, settings: &BalanceSettings, axis: DVec3) -> f64 {
+    /// Bends the chest.
+    pub fn drive(&self, sense: &Sense, strength: f64, target: &mut Target) {
         let me = sense.character();
-        let [forward, backward, sideways] = settings.trunk_lean;
-        let (pitch, roll) = (axis.dot(me.left()), axis.dot(me.facing));
-        let ahead = if pitch > 0.0 { forward } else { backward };
-        1.0 / ((pitch / ahead) * (pitch / ahead) + (roll / sideways) * (roll / sideways)).sqrt().max(1e-3)
+        let chest = target.joint_mut(Node::Chest);
+        let axis = me.part(Node::Hips).rotation.conjugate() * me.facing;
+        chest.velocity += chest.rotation.conjugate() * axis * (self.bend.speed * strength);
+        chest.rotation = (exp(axis * (self.bend.angle * strength)) * chest.rotation).normalize();
+        for node in [Node::Chest, Node::Neck, Node::Head] {
+            let joint = target.joint_mut(node);
+            joint.gain = joint.gain.max(strength);
+        }
     }
 }
 
 /// The hips' up axis if the wanted pose stood on level feet.
-fn wanted_up(sense: &Sense, stance: &Stance, target: &Target) -> DVec3 {
+fn wanted_up(stance: &Stance, target: &Target) -> DVec3 {
     let mut up = DVec3::ZERO;
     for side in 0..2 {
         if stance.stands[side] {
-            let hips_from_foot = leg(side).into_iter().rev().fold(DQuat::IDENTITY, |turn, node| turn * target.joint(node).rotation);
+            let hips_from_foot =
+                leg(side).into_iter().rev().fold(DQuat::IDENTITY, |turn, node| turn * target.joint(node).rotation);
             up += stance.feet[side].level * (hips_from_foot.conjugate() * DVec3::Y);
         }
     }
-    let _ = sense;
     up.try_normalize().unwrap_or(DVec3::Y)
 }
