@@ -168,6 +168,7 @@ pub enum Outcome {
 pub fn outcome(make: &dyn Fn() -> Standing, push: &Push) -> Outcome {
     let mut standing = make();
     standing.run(PUSH_AT_SECS, None);
+    standing.start = standing.feet();
     let before = standing.world.frame().characters[0].centre_of_mass;
     for _ in 0..24 {
         standing.run(0.25, Some(push));

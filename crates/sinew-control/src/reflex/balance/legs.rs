@@ -1,5 +1,6 @@
 //! Forces of the ground, and the torques of the legs that call them forth.
 
+use super::split::Split;
 use super::stance::{Stance, leg, lift};
 use crate::reflex::Sense;
 use crate::{JointTarget, Target};
@@ -26,13 +27,8 @@ impl Ground {
     /// The ground's forces for a centre of pressure and a moment about the centre of mass \[N m\].
     pub fn under(sense: &Sense, stance: &Stance, pressure: DVec2, moment: DVec3) -> Ground {
         let (mass, gravity, height) = (sense.body.mass_kg(), sense.gravity_m_s2, stance.height_m);
-        let shares = shares(stance, pressure);
-        let middle = stance.feet[0].rest * shares[0] + stance.feet[1].rest * shares[1];
-        let offset = pressure - middle;
-        let points = [0, 1].map(|side| {
-            let foot = &stance.feet[side];
-            lift(foot.nearest(foot.rest + offset), foot.height_m)
-        });
+        let Split { shares, points } = Split::of(stance, pressure);
+        let points = [0, 1].map(|side| lift(points[side], stance.feet[side].height_m));
         let reached = points[0] * shares[0] + points[1] * shares[1];
         // (p - c) x F = M with F's upward part the weight.
         let arm = DVec2::new(reached.x, reached.z) - stance.centre;
@@ -45,21 +41,6 @@ impl Ground {
             force: DVec3::new(force.x, weight, force.y),
             acceleration: DVec3::new(force.x, 0.0, force.y) / mass,
         }
-    }
-}
-
-/// How the weight is shared for a centre of pressure: by where it lies between the feet.
-fn shares(stance: &Stance, pressure: DVec2) -> [f64; 2] {
-    match stance.stands {
-        [true, true] => {
-            let line = stance.feet[1].rest - stance.feet[0].rest;
-            let along = (pressure - stance.feet[0].rest).dot(line) / line.length_squared().max(1e-9);
-            let right = along.clamp(0.0, 1.0);
-            [1.0 - right, right]
-        }
-        [true, false] => [1.0, 0.0],
-        [false, true] => [0.0, 1.0],
-        [false, false] => [0.0; 2],
     }
 }
 

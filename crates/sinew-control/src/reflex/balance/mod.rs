@@ -5,6 +5,7 @@ mod legs;
 mod polygon;
 mod settings;
 mod sole;
+mod split;
 mod stance;
 mod trunk;
 
@@ -27,7 +28,7 @@ pub struct Balance {
     /// Upward forces on the feet, smoothed \[N\].
     load_n: [f64; 2],
     /// How far each foot is taken for one that stands, 0 to 1.
-    bearing: [f64; 2],
+    bearing: Option<[f64; 2]>,
     /// Where each foot last stood.
     prints: Option<[Footing; 2]>,
 }
@@ -42,7 +43,7 @@ impl Balance {
             soles: [sole(0), sole(1)],
             trunk: Trunk::of(body),
             load_n: [0.0; 2],
-            bearing: [0.0; 2],
+            bearing: None,
             prints: None,
         }
     }
@@ -58,10 +59,10 @@ impl Reflex for Balance {
             return;
         }
         stance::follow_loads(sense, &mut self.load_n);
-        stance::follow_bearing(sense, &self.soles, &self.load_n, target, &mut self.bearing);
-        let lifted_m = self.follow_prints(sense);
+        let bearing = stance::follow_bearing(sense, &self.soles, &self.load_n, target, &mut self.bearing);
+        let lifted_m = self.follow_prints(sense, &bearing);
         let Some(prints) = &self.prints else { return };
-        let stance = Stance::of(sense, prints, &self.bearing);
+        let stance = Stance::of(sense, prints, &bearing);
         let strength = self.strength(sense, &stance);
         if strength <= 0.0 {
             self.trunk.reset();
@@ -78,7 +79,7 @@ impl Reflex for Balance {
 
     fn reset(&mut self) {
         self.load_n = [0.0; 2];
-        self.bearing = [0.0; 2];
+        self.bearing = None;
         self.prints = None;
         self.trunk.reset();
     }
@@ -96,14 +97,14 @@ impl Balance {
 
     /// Takes down where feet stand; the print of one that tips up or is lifted without being meant to is kept, so that it
     /// comes back there. Returns how high such a foot is over its print \[m\].
-    fn follow_prints(&mut self, sense: &Sense) -> f64 {
+    fn follow_prints(&mut self, sense: &Sense, bearing: &[f64; 2]) -> f64 {
         let me = sense.character();
         let now = [0, 1].map(|side| self.soles[side].under(me.part(LEGS[side].2)));
         let least = 0.25 * sense.body.mass_kg() * sense.gravity_m_s2;
         let prints = self.prints.get_or_insert(now);
         let mut lifted_m = 0.0;
         for side in 0..2 {
-            if self.load_n[side] > least || self.bearing[side] < 0.5 {
+            if self.load_n[side] > least || bearing[side] < 0.5 {
                 prints[side] = now[side];
             } else {
                 lifted_m = f64::max(lifted_m, now[side].height_m - prints[side].height_m);

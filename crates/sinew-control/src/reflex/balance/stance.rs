@@ -99,19 +99,22 @@ pub(super) fn follow_bearing(
     soles: &[Sole; 2],
     load_n: &[f64; 2],
     target: &Target,
-    bearing: &mut [f64; 2],
-) {
+    bearing: &mut Option<[f64; 2]>,
+) -> [f64; 2] {
     let me = sense.character();
     let weight = sense.body.mass_kg() * sense.gravity_m_s2;
     let meant = [0, 1].map(|side| soles[side].meant_height_m(sense.body, target, side));
     let is = [0, 1].map(|side| soles[side].under(me.part(LEGS[side].2)).height_m);
-    for side in 0..2 {
+    let goal = [0, 1].map(|side| {
         let meant = meant[side] < meant[1 - side] + MEANT_LIFTED_M;
         let near = is[side] < is[1 - side] + LIFTED_M;
-        let stands = near && (meant || load_n[side] > 0.1 * weight);
-        let goal = if stands { 1.0 } else { 0.0 };
-        bearing[side] += (goal - bearing[side]) * sense.step_secs / (BEARING_SECS + sense.step_secs);
+        if near && (meant || load_n[side] > 0.1 * weight) { 1.0 } else { 0.0 }
+    });
+    let bearing = bearing.get_or_insert(goal);
+    for side in 0..2 {
+        bearing[side] += (goal[side] - bearing[side]) * sense.step_secs / (BEARING_SECS + sense.step_secs);
     }
+    *bearing
 }
 
 fn is_own(entity: Entity, own: usize) -> bool {
