@@ -75,7 +75,7 @@ fn report(standing: &Standing) {
     };
     let bend = |node: Node| log(me.pose().local(node)) * 57.3;
     println!(
-        "{:.2} com {:.3} {:.3} {:.3} v {:.3} {:.3} {:.3} hips {:.1} chest {:.1} hip {:.1} knee {:.0} {:.0} ankle {:.1} load {:.0} {:.0} tilt {:.3} {:.3} margin {:.3}",
+        "{:.2} com {:.3} {:.3} {:.3} v {:.3} {:.3} {:.3} hips {:.1} chest {:.1} hip {:.1} knee {:.0} {:.0} ankle {:.1} load {:.0} {:.0} tilt {:.3} {:.3} margin {:.3} neck {:.1} head {:.1}",
         standing.world.frame().time_secs,
         me.centre_of_mass.x,
         me.centre_of_mass.y,
@@ -94,6 +94,8 @@ fn report(standing: &Standing) {
         1.0 - soles(Node::LeftFoot).y,
         1.0 - soles(Node::RightFoot).y,
         sinew_world::margin(&me.support, me.centre_of_mass),
+        bend(Node::Neck),
+        bend(Node::Head),
     );
 }
 

@@ -23,6 +23,9 @@ pub(super) struct Ground {
 /// Largest horizontal force \[1 of the weight\]: shoes slip beyond it.
 const GRIP: f64 = 0.7;
 
+/// Share of the weight from which on a foot is taken to touch \[1\].
+const TOUCHING: f64 = 0.05;
+
 impl Ground {
     /// The ground's forces for a centre of pressure and a moment about the centre of mass \[N m\].
     pub fn under(sense: &Sense, stance: &Stance, pressure: DVec2, moment: DVec3) -> Ground {
@@ -57,7 +60,8 @@ pub(super) fn drive(
     for side in 0..2 {
         let share = ground.shares[side];
         let force = ground.force * share;
-        let held = strength * smooth(share / 0.15);
+        // What does not touch the ground cannot push it.
+        let held = strength * smooth(share / 0.15) * smooth(load_n[side] / (TOUCHING * ground.force.y.max(1.0)));
         let nodes = leg(side);
         let (ankle, hip) = (me.part(nodes[0]).position, me.part(nodes[2]).position);
         let line = (hip - ankle).try_normalize().unwrap_or(DVec3::Y);

@@ -1,5 +1,6 @@
 //! Standing balance by ankles, hips and arms.
 
+mod arms;
 mod flywheel;
 mod legs;
 mod polygon;
@@ -13,6 +14,7 @@ pub use settings::BalanceSettings;
 
 use super::{Reflex, Sense};
 use crate::Target;
+use arms::Arms;
 use legs::{Ground, smooth};
 use sinew_body::humanoid::{Body, LEGS, Node};
 use sole::{Footing, Sole};
@@ -25,6 +27,7 @@ pub struct Balance {
     settings: BalanceSettings,
     soles: [Sole; 2],
     trunk: Trunk,
+    arms: Arms,
     /// Upward forces on the feet, smoothed \[N\].
     load_n: [f64; 2],
     /// How far each foot is taken for one that stands, 0 to 1.
@@ -42,6 +45,7 @@ impl Balance {
             settings,
             soles: [sole(0), sole(1)],
             trunk: Trunk::of(body),
+            arms: Arms::default(),
             load_n: [0.0; 2],
             bearing: None,
             prints: None,
@@ -66,15 +70,20 @@ impl Reflex for Balance {
         let strength = self.strength(sense, &stance);
         if strength <= 0.0 {
             self.trunk.reset();
+            self.arms = Arms::default();
             return;
         }
         let wanted = stance.capture + (stance.capture - stance.rest) * self.settings.firmness;
         let pressure = stance.polygon.nearest(wanted);
         let beyond = wanted - pressure;
-        let moment = self.trunk.moment(sense, &stance, &self.settings, beyond, lifted_m, target);
+        let upright = trunk::wanted_up(&stance, target);
+        let moment = self.trunk.moment(sense, &stance, &self.settings, beyond, lifted_m, upright);
         let ground = Ground::under(sense, &stance, pressure, moment);
         legs::drive(sense, &stance, &ground, &self.load_n, strength, target);
-        self.trunk.drive(sense, strength, target);
+        let off = self.trunk.drive(sense, upright, strength, target);
+        arms::level_head(sense, off, strength, target);
+        self.arms.step(sense, beyond, self.settings.arm_swing);
+        self.arms.drive(sense, strength, target);
     }
 
     fn reset(&mut self) {
@@ -82,6 +91,7 @@ impl Reflex for Balance {
         self.bearing = None;
         self.prints = None;
         self.trunk.reset();
+        self.arms = Arms::default();
     }
 }
 

@@ -25,14 +25,14 @@ pub struct BalanceSettings {
 impl Default for BalanceSettings {
     fn default() -> BalanceSettings {
         BalanceSettings {
-            firmness: 1.0,
+            firmness: 3.0,
             rest_share: 0.42,
             edge_margin: 0.004,
             upright_hz: 0.8,
             upright_damping: 0.9,
             trunk_moment: 0.12,
             trunk_lean: [0.6, 0.25, 0.3],
-            arm_swing: 0.0,
+            arm_swing: 0.8,
         }
     }
 }

@@ -43,7 +43,8 @@ impl Trunk {
     }
 
     /// Moment of the ground about the centre of mass \[N m\]. `beyond` is how far the centre of pressure would have to lie outside
-    /// the soles, `lifted_m` how high a foot is that should stand \[m\].
+    /// the soles, `lifted_m` how high a foot is that should stand \[m\], `wanted_up` the
+    /// hips' wanted up axis.
     pub fn moment(
         &mut self,
         sense: &Sense,
@@ -51,7 +52,7 @@ impl Trunk {
         settings: &BalanceSettings,
         beyond: DVec2,
         lifted_m: f64,
-        target: &Target,
+        wanted_up: DVec3,
     ) -> DVec3 {
         let me = sense.character();
         let (facing, left) = (me.facing, me.left());
@@ -61,7 +62,7 @@ impl Trunk {
         let urgency = smooth(beyond.length() / 0.02);
 
         let hips = me.part(Node::Hips);
-        let error = (hips.rotation * DVec3::Y).cross(wanted_up(stance, target));
+        let error = (hips.rotation * DVec3::Y).cross(wanted_up);
         let omega = std::f64::consts::TAU * settings.upright_hz;
         let upright = |axis: DVec3| {
             let spin = hips.angular_velocity.dot(axis);
@@ -87,22 +88,26 @@ impl Trunk {
         left * pitch + facing * roll
     }
 
-    /// Bends the chest.
-    pub fn drive(&self, sense: &Sense, strength: f64, target: &mut Target) {
+    /// Bends the chest. Returns the turn that would take it upright (world axes) \[rad\].
+    pub fn drive(&self, sense: &Sense, wanted_up: DVec3, strength: f64, target: &mut Target) -> DVec3 {
         let me = sense.character();
+        let hips = me.part(Node::Hips).rotation;
+        let upright = DQuat::from_rotation_arc(hips * DVec3::Y, wanted_up) * hips;
         let chest = target.joint_mut(Node::Chest);
-        let axis = me.part(Node::Hips).rotation.conjugate() * me.facing;
+        let off = (me.part(Node::Chest).rotation * DVec3::Y).cross(upright * chest.rotation * DVec3::Y);
+        let axis = hips.conjugate() * me.facing;
         chest.velocity += chest.rotation.conjugate() * axis * (self.bend.speed * strength);
         chest.rotation = (exp(axis * (self.bend.angle * strength)) * chest.rotation).normalize();
         for node in [Node::Chest, Node::Neck, Node::Head] {
             let joint = target.joint_mut(node);
             joint.gain = joint.gain.max(strength);
         }
+        off
     }
 }
 
 /// The hips' up axis if the wanted pose stood on level feet.
-fn wanted_up(stance: &Stance, target: &Target) -> DVec3 {
+pub(super) fn wanted_up(stance: &Stance, target: &Target) -> DVec3 {
     let mut up = DVec3::ZERO;
     for side in 0..2 {
         if stance.stands[side] {
