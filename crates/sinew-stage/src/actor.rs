@@ -123,7 +123,10 @@ impl Actor {
         if let Some(state) = state
             && !player.jump(graph, state)
         {
-            return Err(format!("no state `{state}`; there are {}", graph.state_names().collect::<Vec<_>>().join(", ")));
+            return Err(format!(
+                "no state `{state}`; there are {}",
+                graph.state_names().collect::<Vec<_>>().join(", ")
+            ));
         }
         self.player.aim(player.pose(graph));
         self.pose = player.pose_name(graph).to_owned();
@@ -252,14 +255,8 @@ impl Actor {
             }
         }
         if self.has_layer(Layer::Reflexes) {
-            let sense = Sense {
-                frame,
-                own: self.index,
-                body: &self.body,
-                gains: self.pd.gains(),
-                step_secs,
-                gravity_m_s2,
-            };
+            let sense =
+                Sense { frame, own: self.index, body: &self.body, gains: self.pd.gains(), step_secs, gravity_m_s2 };
             for (reflex, _) in self.reflexes.iter_mut().filter(|(_, on)| *on) {
                 reflex.step(&sense, &mut self.target);
             }

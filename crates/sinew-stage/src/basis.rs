@@ -19,8 +19,7 @@ pub(crate) fn basis_for(
     motion: Option<&MotionSource>,
     frame_secs: f64,
 ) -> Result<(Basis, Settings), String> {
-    let settings =
-        Settings { time_step_secs: frame_secs, compliance: spec.response.compliance, ..Settings::default() };
+    let settings = Settings { time_step_secs: frame_secs, compliance: spec.response.compliance, ..Settings::default() };
     let (sample, poses);
     let poses = match motion {
         Some(motion) => &motion.poses()[..motion.poses().len().min(MOST_FRAMES)],

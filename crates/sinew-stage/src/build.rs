@@ -70,8 +70,7 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         if spec.spin_rad_s != [0.0; 3] {
             world.spin_character(index, spec.spin_rad_s.into());
         }
-        let mut actor =
-            Actor::new(index, cut.body, poses, graphs, pose, &joints, world.settings().step_secs());
+        let mut actor = Actor::new(index, cut.body, poses, graphs, pose, &joints, world.settings().step_secs());
         actor.motion = cut.motion;
         actors.push(actor);
     }

@@ -25,7 +25,9 @@ pub(crate) fn read(scene: &Scene, name: &str) -> Result<MotionFile, String> {
     let options = ReadOptions::default();
     let wrong = |error: sinew_motion::Error| error.to_string();
     match (name.to_ascii_lowercase().ends_with(".bvh"), scene.files().get(name), scene.on_disk(name)) {
-        (true, Some(HeldFile { bytes, .. }), _) => MotionFile::from_bvh(bytes, &options).map_err(|e| format!("{name}: {e}")),
+        (true, Some(HeldFile { bytes, .. }), _) => {
+            MotionFile::from_bvh(bytes, &options).map_err(|e| format!("{name}: {e}"))
+        }
         (_, _, Some(path)) => MotionFile::read(&path, &options).map_err(wrong),
         _ => Err(format!("{name}: a take holds BVH clips only; convert the clip with `sinew convert`")),
     }

@@ -24,9 +24,10 @@ impl Stage {
     fn try_obey(&mut self, command: &Command) -> Result<Option<String>, String> {
         match &command.character {
             Some(name) => {
-                let character = self.cast.character(name).ok_or_else(|| {
-                    format!("no character `{name}`; there are {}", self.cast.characters().join(", "))
-                })?;
+                let character = self
+                    .cast
+                    .character(name)
+                    .ok_or_else(|| format!("no character `{name}`; there are {}", self.cast.characters().join(", ")))?;
                 self.obey_for(character, &command.action)
             }
             None => self.obey_on_stage(&command.action),
@@ -335,9 +336,13 @@ impl Stage {
     /// One thing that can be held.
     fn thing(&self, name: &str, own: usize) -> Result<Entity, String> {
         match self.cast.meaning(name, Some(own)) {
-            Some(Touchable::One(Entity::Part(owner, _))) if owner == own => Err(format!("`{name}` is a part of its own")),
+            Some(Touchable::One(Entity::Part(owner, _))) if owner == own => {
+                Err(format!("`{name}` is a part of its own"))
+            }
             Some(Touchable::One(entity)) => Ok(entity),
-            Some(Touchable::Character(_)) => Err(format!("`{name}` is a whole character; name a part, `{name}.leftHand`")),
+            Some(Touchable::Character(_)) => {
+                Err(format!("`{name}` is a whole character; name a part, `{name}.leftHand`"))
+            }
             None => self.prop(name).map(Entity::Prop),
         }
     }

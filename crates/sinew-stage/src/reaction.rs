@@ -46,9 +46,7 @@ impl Reactions {
             }
             let [one, other] = waiting.touching;
             let touch = frame.contacts.iter().find(|contact| {
-                contact.begins
-                    && (one.is(contact.a) && other.is(contact.b)
-                        || one.is(contact.b) && other.is(contact.a))
+                contact.begins && (one.is(contact.a) && other.is(contact.b) || one.is(contact.b) && other.is(contact.a))
             });
             if let Some(touch) = touch {
                 waiting.ready_at = waiting.repeat_after.map(|steps| frame.step + steps);

@@ -102,8 +102,13 @@ impl Stage {
 
     /// Commands bound to a key of the scene; obeyed at the beginning of the next step. Returns whether there are any.
     pub fn press(&mut self, key: &str) -> bool {
-        let bound: Vec<Command> =
-            self.scene.keys.iter().filter(|binding| binding.key == key).map(|binding| binding.command.clone()).collect();
+        let bound: Vec<Command> = self
+            .scene
+            .keys
+            .iter()
+            .filter(|binding| binding.key == key)
+            .map(|binding| binding.command.clone())
+            .collect();
         let any = !bound.is_empty();
         for command in bound {
             self.command(command);

@@ -113,7 +113,9 @@ fn a_command_that_makes_no_sense_is_refused_in_words_and_the_stage_goes_on() {
 
 #[test]
 fn equal_scenes_and_commands_give_equal_bits_at_every_step() {
-    let text = format!("{STANDING}[props.ball]\nball_radius_m = 0.1\nmass_kg = 3\nposition_m = [0, 1.3, 1]\nvelocity_m_s = [0, 0, -6]\n");
+    let text = format!(
+        "{STANDING}[props.ball]\nball_radius_m = 0.1\nmass_kg = 3\nposition_m = [0, 1.3, 1]\nvelocity_m_s = [0, 0, -6]\n"
+    );
     let run = || {
         let mut stage = stage(&text);
         let mut hashes = Vec::new();
@@ -164,10 +166,7 @@ fn a_held_ball_stays_in_the_hand_until_it_is_let_go() {
     steps(&mut stage, 120);
     // Rigid but for the solver's error.
     assert!((apart(&stage) - before).abs() < 2e-3, "{} {before}", apart(&stage));
-    stage.command(Command::to(
-        "one",
-        Action::Detach { link: "rightHand".to_owned(), object: "ball".to_owned() },
-    ));
+    stage.command(Command::to("one", Action::Detach { link: "rightHand".to_owned(), object: "ball".to_owned() }));
     steps(&mut stage, 200);
     assert!(stage.frame().props[0].position.y < 0.1);
     assert!(stage.frame().props[0].position.distance(DVec3::ZERO) < 3.0);

@@ -19,9 +19,8 @@ fn host() -> Option<ScriptHost> {
 
 fn names() -> Vec<String> {
     let files = std::fs::read_dir(folder()).unwrap();
-    let mut names: Vec<String> = files
-        .filter_map(|file| Some(file.unwrap().file_name().to_str()?.strip_suffix(".toml")?.to_owned()))
-        .collect();
+    let mut names: Vec<String> =
+        files.filter_map(|file| Some(file.unwrap().file_name().to_str()?.strip_suffix(".toml")?.to_owned())).collect();
     names.sort();
     names
 }
@@ -42,7 +41,8 @@ fn every_scene_gives_the_bits_that_it_always_gave_and_replays_to_them() {
         let ran = run(scene, &job, |_, _, _| ()).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(ran.report.characters.values().all(|character| character.resets == 0), "{name}");
         let take = Take::read(&ran.take.to_bytes().unwrap()).unwrap();
-        let again = replay(&take, &[], Some(&folder()), host(), |_, _, _| ()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let again =
+            replay(&take, &[], Some(&folder()), host(), |_, _, _| ()).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(again.take.hash, take.hash, "{name}: the replay leaves the take");
         found.insert(name, ran.report.hash);
     }

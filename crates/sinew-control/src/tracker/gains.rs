@@ -89,6 +89,8 @@ fn load_moment(body: &Body, node: Node) -> f64 {
     let joint = positions[node.index()].y;
     Node::ALL
         .into_iter()
-        .map(|part| body.link(part).mass_kg * 9.81 * (positions[part.index()].y + body.link(part).centre.y - joint).max(0.0))
+        .map(|part| {
+            body.link(part).mass_kg * 9.81 * (positions[part.index()].y + body.link(part).centre.y - joint).max(0.0)
+        })
         .sum()
 }

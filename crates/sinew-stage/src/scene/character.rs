@@ -1,8 +1,8 @@
 //! Characters of a scene.
 
-use super::{ResponseSpec, SourceSpec};
 use super::error::{Fault, known, shortened};
 use super::range::{colour, count, name as known_name, number, optional, rgb, vector};
+use super::{ResponseSpec, SourceSpec};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_body::humanoid::Node;

@@ -18,6 +18,10 @@ impl SceneSpec {
     /// # Errors
     /// What is wrong with it and what to do.
     pub fn check_command(&self, command: &Command) -> Result<(), String> {
+        self.check_action(command).map_err(|problem| format!("do = \"{}\": {problem}", word(&command.action)))
+    }
+
+    fn check_action(&self, command: &Command) -> Result<(), String> {
         use Action as A;
         let within = |key: &str, value: f64, range: RangeInclusive<f64>| {
             if range.contains(&value) {
@@ -155,7 +159,6 @@ impl SceneSpec {
             }
             A::Say { text } => words(text, MOST_WORDS),
         }
-        .map_err(|problem| format!("do = \"{}\": {problem}", word(&command.action)))
     }
 
     /// The character that a command is for.

@@ -62,7 +62,7 @@ pub(crate) fn known<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) 
             (strsim::damerau_levenshtein(&clipped(wanted).to_lowercase(), &clipped(name).to_lowercase()), *name)
         })
         .min()
-        .filter(|(distance, name)| *distance <= 1 + name.chars().count() / 4);
+        .filter(|(distance, name)| *distance < name.chars().count() && *distance <= 1 + name.chars().count() / 4);
     let mut listed: Vec<String> = names.iter().take(LISTED).map(|name| shortened(name)).collect();
     if names.len() > LISTED {
         listed.push(format!("and {} more", names.len() - LISTED));
@@ -100,6 +100,7 @@ mod tests {
     fn a_misspelt_name_finds_its_neighbour_and_a_foreign_one_does_not() {
         assert_eq!(known("gard", ["guard", "stand"]), "did you mean `guard`? Known: guard, stand");
         assert_eq!(known("fly", ["guard", "stand"]), "known: guard, stand");
+        assert_eq!(known("z", ["a", "b"]), "known: a, b");
         assert_eq!(known("fly", []), "there is none");
     }
 

@@ -1,7 +1,8 @@
 //! How a character responds: the settings of its tracker `response`.
 
+use super::SceneSpec;
 use super::error::Fault;
-use super::range::{count, number};
+use super::range::{count, name as known_name, number};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -30,5 +31,20 @@ impl ResponseSpec {
         let at = |key| ["characters", name, "response", key];
         number(&at("compliance"), self.compliance, 0.25..=4.0, "1 is usual, 0.25 stiff, 4 loose")?;
         count(&at("avoid"), self.avoid.len(), 100)
+    }
+
+    /// Whether what it names exists; `name` is the character's.
+    pub(super) fn check_names(&self, name: &str, scene: &SceneSpec) -> Result<(), Fault> {
+        let at = |key| ["characters", name, "response", key];
+        let props = || scene.props.keys().map(String::as_str);
+        if let Some(prop) = &self.stands_on {
+            known_name(&at("stands_on"), "prop", prop, props())?;
+        }
+        if let (Some(part), Some(character)) = (&self.keep_upright, scene.characters.get(name))
+            && character.node(part).is_none()
+        {
+            return Err(Fault::at(&at("keep_upright"), character.no_part(part)));
+        }
+        self.avoid.iter().try_for_each(|prop| known_name(&at("avoid"), "prop", prop, props()))
     }
 }

@@ -52,13 +52,6 @@ impl Take {
                 "the take's first line states another seed or physics_hz than its scene; record it again".to_owned();
             return Err(SceneError { file: self.scene.clone(), line: None, path: "stage".to_owned(), problem });
         }
-        // Commands are as foreign as the scene.
-        for stamped in &self.commands {
-            if let Err(problem) = scene.check_command(&stamped.command) {
-                let problem = format!("the command of step {} does not fit the scene: {problem}", stamped.step);
-                return Err(SceneError { file: self.scene.clone(), line: None, path: String::new(), problem });
-            }
-        }
         Ok(scene)
     }
 }

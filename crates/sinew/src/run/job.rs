@@ -64,11 +64,7 @@ const TRACE_STEPS: u64 = 240;
 ///
 /// # Errors
 /// When the scene cannot be built or the time is out of range.
-pub fn run(
-    scene: Scene,
-    job: &RunJob,
-    before_step: impl FnMut(&mut Stage, u64, u64),
-) -> Result<Ran, RunError> {
+pub fn run(scene: Scene, job: &RunJob, before_step: impl FnMut(&mut Stage, u64, u64)) -> Result<Ran, RunError> {
     let for_secs = job.for_secs.unwrap_or(scene.stage.duration_secs);
     if !(for_secs > 0.0 && for_secs <= MOST_SECS) {
         return Err(RunError::Duration(for_secs));
