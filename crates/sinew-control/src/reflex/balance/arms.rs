@@ -29,7 +29,7 @@ impl Arms {
     pub fn step(&mut self, sense: &Sense, beyond: DVec2, swing_rad: f64) {
         let me = sense.character();
         let beyond = DVec3::new(beyond.x, 0.0, beyond.y);
-        let mut go = |wheel: &mut Flywheel, along: f64| {
+        let go = |wheel: &mut Flywheel, along: f64| {
             let swing = Swing {
                 inertia: 1.0,
                 moment: THROW_RAD_S2 * along.signum(),

@@ -16,7 +16,7 @@ use super::{Reflex, Sense};
 use crate::Target;
 use arms::Arms;
 use legs::{Ground, smooth};
-use sinew_body::humanoid::{Body, LEGS, Node};
+use sinew_body::humanoid::{Body, LEGS};
 use sole::{Footing, Sole};
 use stance::Stance;
 use trunk::Trunk;
