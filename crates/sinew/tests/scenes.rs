@@ -1,5 +1,7 @@
 //! Every shipped scene runs, gives the same bits as ever, and replays to them.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
 use sinew::run::{RunJob, replay, run};
 use sinew::script::{Limits, ScriptHost};
 use sinew::stage::{Scene, Take};

@@ -265,7 +265,7 @@ fn bar() -> ProgressBar {
 }
 
 fn show(bar: &ProgressBar, done: u64, of: u64) {
-    if done % STEPS_PER_UPDATE == 0 {
+    if done.is_multiple_of(STEPS_PER_UPDATE) {
         bar.set_length(of);
         bar.set_position(done);
     }

@@ -33,8 +33,6 @@ pub(super) struct Stance {
     pub ground_m: f64,
     /// Height of the centre of mass over it \[m\].
     pub height_m: f64,
-    /// √(g/h) \[1/s\].
-    pub omega: f64,
     /// Centre of mass over the ground \[m\].
     pub centre: DVec2,
     /// Where the centre of mass would come to rest over: c + v / ω \[m\].
@@ -68,7 +66,6 @@ impl Stance {
             rest,
             ground_m,
             height_m,
-            omega,
             centre,
             capture: centre + flat(me.centre_velocity) / omega,
         }
