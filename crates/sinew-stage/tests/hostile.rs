@@ -1,5 +1,7 @@
 //! Broken and evil scenes, pose files and takes: an error in words or a sound scene, never a panic or a hang.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 #[path = "../../../fuzz/src/stage.rs"]
 mod fuzz;
 

@@ -1,5 +1,7 @@
 //! Scenes that are wrong say where, what and what to do.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use sinew_stage::Scene;
 use std::collections::BTreeMap;
 

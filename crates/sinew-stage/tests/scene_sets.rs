@@ -1,5 +1,7 @@
 //! Values that are changed from outside, as `--set PATH=VALUE` does.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use sinew_stage::Scene;
 use sinew_stage::scene::TrackerKind;
 

@@ -1,5 +1,7 @@
 //! `docs/scenes.md` shows one scene, and the scene runs.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use sinew_control::Action;
 use sinew_stage::scene::{CameraSpec, CharacterSpec, DiskFiles, Files, StageSpec};
 use sinew_stage::{Scene, Stage};

@@ -1,5 +1,7 @@
 //! The committed schema is that of the code, and is closed against unknown keys.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use sinew_stage::scene_schema;
 use std::path::{Path, PathBuf};
 

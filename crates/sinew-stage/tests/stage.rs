@@ -1,5 +1,7 @@
 //! What a running stage does with commands, spans, touches and bad input.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use glam::DVec3;
 use sinew_control::{Action, Command, Layer};
 use sinew_stage::{Scene, Stage};

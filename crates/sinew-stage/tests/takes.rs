@@ -1,5 +1,7 @@
 //! Takes come back as they were written, or say what is wrong with them.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use sinew_control::{Action, Command};
 use sinew_stage::take::HashTrace;
 use sinew_stage::{Scene, Take, TakeError};

@@ -1,5 +1,7 @@
 //! The controller that Shapiro et al. 2007 print dunks.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::run::{RunJob, run};

@@ -1,5 +1,7 @@
 //! Responding walks on the stage show what their scenes say.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use glam::{DQuat, DVec3};
 use sinew::body::humanoid::{Node, Pose};
 use sinew::run::{Ran, RunJob, run};

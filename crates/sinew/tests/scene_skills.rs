@@ -1,5 +1,7 @@
 //! Each shipped skill does what its scene says.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use glam::DVec3;
 use sinew::body::humanoid::{Node, Pose};
 use sinew::run::{Ran, RunJob, run};

@@ -1,5 +1,7 @@
 //! The shipped walk: it walks in two dimensions, bears two pushes, and goes on in three.
 
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
 use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::run::{Ran, RunJob, run};
