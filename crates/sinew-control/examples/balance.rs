@@ -2,6 +2,8 @@
 //! `cargo run --release -p sinew-control --example balance -- table`,
 //! or draws one push: `... -- push AZIMUTH_DEG IMPULSE_N_S OUT.png`.
 
+#![allow(clippy::collapsible_if, reason = "the two questions are apart")]
+
 #[path = "../tests/pushed/mod.rs"]
 mod pushed;
 
