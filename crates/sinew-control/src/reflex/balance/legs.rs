@@ -5,7 +5,7 @@ use super::stance::{Stance, leg, lift};
 use crate::reflex::Sense;
 use crate::{JointTarget, Target};
 use glam::{DVec2, DVec3};
-use sinew_body::humanoid::{Node, exp, log};
+use sinew_body::humanoid::{Node, exp, log, swing_twist};
 
 /// What the ground is to do.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +14,8 @@ pub(super) struct Ground {
     pub shares: [f64; 2],
     /// Centre of pressure under each foot \[m\].
     pub points: [DVec3; 2],
-    /// Force on both together \[N\].
-    pub force: DVec3,
+    /// Force on each foot \[N\].
+    pub forces: [DVec3; 2],
     /// What that accelerates the centre of mass with \[m/s²\].
     pub acceleration: DVec3,
 }
@@ -26,22 +26,33 @@ const GRIP: f64 = 0.7;
 /// Share of the weight from which on a foot is taken to touch \[1\].
 const TOUCHING: f64 = 0.05;
 
+/// Share of its stiffness with which a joint that is held by torques keeps its twist \[1\]. A twisted foot creeps: the solver's
+/// friction lets a strong spring turn it, and in the wrong direction.
+const TWIST_GAIN: f64 = 0.1;
+
+/// How firmly rising and sinking is slowed, relative to √(g/h) \[1\].
+const SLOWING: f64 = 1.0;
+
 impl Ground {
-    /// The ground's forces for a centre of pressure and a moment about the centre of mass \[N m\].
-    pub fn under(sense: &Sense, stance: &Stance, pressure: DVec2, moment: DVec3) -> Ground {
+    /// The ground's forces for a centre of pressure and a moment about the centre of mass \[N m\], with a `pair` of forces of the
+    /// feet against each other: the left one's \[N\].
+    pub fn under(sense: &Sense, stance: &Stance, pressure: DVec2, moment: DVec3, pair: DVec3) -> Ground {
         let (mass, gravity, height) = (sense.body.mass_kg(), sense.gravity_m_s2, stance.height_m);
         let Split { shares, points } = Split::of(stance, pressure);
         let points = [0, 1].map(|side| lift(points[side], stance.feet[side].height_m));
         let reached = points[0] * shares[0] + points[1] * shares[1];
-        // (p - c) x F = M with F's upward part the weight.
+        // (p - c) x F = M with F's upward part the weight, less what slows a body that rises.
         let arm = DVec2::new(reached.x, reached.z) - stance.centre;
         let weight = mass * gravity;
-        let force = DVec2::new(moment.z - arm.x * weight, -moment.x - arm.y * weight) / height;
+        let slower = sense.character().centre_velocity.y * SLOWING * stance.omega / gravity;
+        let upward = weight * (1.0 - slower.clamp(-0.3, 0.5));
+        let force = DVec2::new(moment.z - arm.x * upward, -moment.x - arm.y * upward) / height;
         let force = force.clamp_length_max(GRIP * weight);
+        let whole = DVec3::new(force.x, upward, force.y);
         Ground {
             shares,
             points,
-            force: DVec3::new(force.x, weight, force.y),
+            forces: [whole * shares[0] + pair, whole * shares[1] - pair],
             acceleration: DVec3::new(force.x, 0.0, force.y) / mass,
         }
     }
@@ -57,11 +68,12 @@ pub(super) fn drive(
     target: &mut Target,
 ) {
     let me = sense.character();
+    let weight = sense.body.mass_kg() * sense.gravity_m_s2;
     for side in 0..2 {
         let share = ground.shares[side];
-        let force = ground.force * share;
+        let force = ground.forces[side];
         // What does not touch the ground cannot push it.
-        let held = strength * smooth(share / 0.15) * smooth(load_n[side] / (TOUCHING * ground.force.y.max(1.0)));
+        let held = strength * smooth(share / 0.15) * smooth(load_n[side] / (TOUCHING * weight));
         let nodes = leg(side);
         let (ankle, hip) = (me.part(nodes[0]).position, me.part(nodes[2]).position);
         let line = (hip - ankle).try_normalize().unwrap_or(DVec3::Y);
@@ -77,40 +89,41 @@ pub(super) fn drive(
                 -((ground.points[side] - part.position).cross(force) + below.1 - part.position.cross(below.0));
             let joint = target.joint_mut(node);
             if node == nodes[0] {
-                // Under the load that the foot really bears, the pressure's centre is then where it should be.
-                torque *= (load_n[side] / force.y.max(1.0)).clamp(0.5, 1.5);
+                // Under the load that the foot really bears, the pressure's centre is then where it should be. (More for
+                // more load would throw the body up from its toes.)
+                torque *= (load_n[side] / force.y.max(1.0)).clamp(0.5, 1.0);
             }
             if node == nodes[1] {
                 let axis = part.rotation * DVec3::X;
                 joint.torque += axis * (axis.dot(torque) * held);
                 joint.gain = joint.gain.max(held);
             } else {
-                torque -= line * line.dot(torque);
+                let bone = part.rotation * DVec3::Y;
+                torque -= bone * bone.dot(torque);
                 joint.torque += torque * held;
                 joint.gain = joint.gain.max(held);
                 let damping = if node == nodes[0] { 0.1 } else { 0.3 };
                 // A foot that should stand but bears nothing goes back to its print, level.
                 let astray = match (stance.stands[side], node == nodes[0]) {
                     (false, _) => None,
-                    (true, true) => Some((part.rotation * DVec3::Y).cross(DVec3::Y)),
+                    (true, true) => Some(bone.cross(DVec3::Y)),
                     (true, false) => {
                         let print = (stance.feet[side].ankle - hip).try_normalize().unwrap_or(line);
                         Some(print.cross(line))
                     }
                 };
-                yield_across(sense, node, line, astray, held, damping, joint);
+                yield_across(sense, node, astray, held, damping, joint);
             }
         }
     }
 }
 
-/// Lets a joint's spring go but for the turn about `line`, so that torques alone act about the other axes as far as the leg is
+/// Lets a joint's spring go but for the twist about its bone, so that torques alone act about the other axes as far as the leg is
 /// `held` by them. The spring's wanted place follows the joint: it still keeps light parts from chattering within a step.
 /// Without a load the spring aims at the pose, or turns the joint by `astray` (world axes).
 fn yield_across(
     sense: &Sense,
     node: Node,
-    line: DVec3,
     astray: Option<DVec3>,
     held: f64,
     damping: f64,
@@ -120,18 +133,23 @@ fn yield_across(
     let me = sense.character();
     let (above, part) = (me.part(parent), me.part(node));
     let parent_from_world = above.rotation.conjugate();
-    let axis = parent_from_world * line;
     let local = (parent_from_world * part.rotation).normalize();
-    let error = log(joint.rotation * local.conjugate());
-    let along = axis * axis.dot(error);
+    let (_, _, twist) = swing_twist(joint.rotation.conjugate() * local);
+    let bone = local * DVec3::Y;
+    let along = bone * -twist;
     let across = match astray {
-        Some(turn) => parent_from_world * (turn - line * line.dot(turn)),
-        None => error - along,
+        Some(turn) => {
+            let turn = parent_from_world * turn;
+            turn - bone * bone.dot(turn)
+        }
+        None => log(joint.rotation * local.conjugate()) - along,
     };
     joint.rotation = (exp(along + across * (1.0 - held)) * local).normalize();
     let spin = part.rotation.conjugate() * (part.angular_velocity - above.angular_velocity);
-    joint.velocity = joint.velocity.lerp(spin, held);
-    joint.damping *= 1.0 + (damping - 1.0) * held;
+    // Damping acts on the twist alone.
+    joint.velocity = joint.velocity.lerp(spin.with_y(joint.velocity.y), held);
+    joint.gain *= 1.0 + (TWIST_GAIN - 1.0) * held;
+    joint.damping *= 1.0 + (damping / TWIST_GAIN.sqrt() - 1.0) * held;
 }
 
 /// 0 below 0, 1 above 1, smooth between.

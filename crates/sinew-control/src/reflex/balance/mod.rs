@@ -3,6 +3,7 @@
 mod arms;
 mod flywheel;
 mod legs;
+mod pair;
 mod polygon;
 mod settings;
 mod sole;
@@ -16,6 +17,7 @@ use super::{Reflex, Sense};
 use crate::Target;
 use arms::Arms;
 use legs::{Ground, smooth};
+use pair::Pair;
 use sinew_body::humanoid::{Body, LEGS};
 use sole::{Footing, Sole};
 use stance::Stance;
@@ -28,6 +30,7 @@ pub struct Balance {
     soles: [Sole; 2],
     trunk: Trunk,
     arms: Arms,
+    pair: Pair,
     /// Upward forces on the feet, smoothed \[N\].
     load_n: [f64; 2],
     /// How far each foot is taken for one that stands, 0 to 1.
@@ -46,6 +49,7 @@ impl Balance {
             soles: [sole(0), sole(1)],
             trunk: Trunk::of(body),
             arms: Arms::default(),
+            pair: Pair::of(body),
             load_n: [0.0; 2],
             bearing: None,
             prints: None,
@@ -78,7 +82,8 @@ impl Reflex for Balance {
         let beyond = wanted - pressure;
         let upright = trunk::wanted_up(&stance, target);
         let moment = self.trunk.moment(sense, &stance, &self.settings, beyond, lifted_m, upright);
-        let ground = Ground::under(sense, &stance, pressure, moment);
+        let pair = self.pair.force(sense, &stance, &self.load_n, target);
+        let ground = Ground::under(sense, &stance, pressure, moment, pair);
         legs::drive(sense, &stance, &ground, &self.load_n, strength, target);
         let off = self.trunk.drive(sense, upright, strength, target);
         arms::level_head(sense, off, strength, target);
