@@ -44,7 +44,7 @@ impl Ground {
         // (p - c) x F = M with F's upward part the weight, less what slows a body that rises.
         let arm = DVec2::new(reached.x, reached.z) - stance.centre;
         let weight = mass * gravity;
-        let slower = sense.character().centre_velocity.y * SLOWING * stance.omega / gravity;
+        let slower = sense.character().centre_velocity.y * SLOWING / (gravity * height).sqrt();
         let upward = weight * (1.0 - slower.clamp(-0.3, 0.5));
         let force = DVec2::new(moment.z - arm.x * upward, -moment.x - arm.y * upward) / height;
         let force = force.clamp_length_max(GRIP * weight);
@@ -121,14 +121,7 @@ pub(super) fn drive(
 /// Lets a joint's spring go but for the twist about its bone, so that torques alone act about the other axes as far as the leg is
 /// `held` by them. The spring's wanted place follows the joint: it still keeps light parts from chattering within a step.
 /// Without a load the spring aims at the pose, or turns the joint by `astray` (world axes).
-fn yield_across(
-    sense: &Sense,
-    node: Node,
-    astray: Option<DVec3>,
-    held: f64,
-    damping: f64,
-    joint: &mut JointTarget,
-) {
+fn yield_across(sense: &Sense, node: Node, astray: Option<DVec3>, held: f64, damping: f64, joint: &mut JointTarget) {
     let Some(parent) = node.parent() else { return };
     let me = sense.character();
     let (above, part) = (me.part(parent), me.part(node));
