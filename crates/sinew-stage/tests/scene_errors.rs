@@ -314,11 +314,27 @@ fn what_is_read_has_limits() {
     assert!(complaint(&deep).contains("no TOML"));
     let deep = format!("format = 1\n{} = 1\n", vec!["a"; 100_000].join("."));
     assert!(complaint(&deep).contains("no TOML"));
+    let heavy = format!("format = 1\na = [{}]\n", "{a=1},".repeat(150_000));
+    assert!(complaint(&heavy).contains("state too many values; leave some out"));
+    let entry = |at: usize| format!("[characters.c{at}]\n[poses.a{at}]\n[poses.b{at}]\n[poses.c{at}]\n");
+    let crowd: String = (0..200).map(entry).collect();
+    assert!(complaint(&format!("format = 1\n{crowd}")).contains("200 characters with 600 poses and 0 states"));
     let long = format!("format = 1\n{} = 1\n", "a".repeat(1 << 20));
     // A name of a mebibyte does not make a message of one.
     assert!(complaint(&long).len() < 1000);
     let not_text = BTreeMap::from([("scene.toml".to_owned(), vec![0xff, 0xfe, 0x00])]);
     assert!(Scene::from_files("scene.toml", not_text).unwrap_err().to_string().contains("save it as UTF-8"));
+}
+
+#[test]
+fn pose_files_together_have_a_limit() {
+    let names: Vec<String> = (0..4).map(|at| format!("p{at}.toml")).collect();
+    let scene = format!("format = 1\n[stage]\npose_files = {names:?}\n");
+    let mut files: BTreeMap<String, Vec<u8>> =
+        names.iter().map(|name| (name.clone(), format!("# {}\n", "x".repeat(3 << 20)).into_bytes())).collect();
+    files.insert("scene.toml".to_owned(), scene.into_bytes());
+    let said = Scene::from_files("scene.toml", files).unwrap_err().to_string();
+    assert!(said.contains("line 3: stage.pose_files: `p2.toml`: the file is larger than"), "{said}");
 }
 
 #[test]

@@ -9,6 +9,9 @@ use sinew_control::GraphSpec;
 /// The built-in pose: standing, arms hanging.
 pub const STAND: &str = "stand";
 
+/// Most key poses and states of graphs, over all characters.
+const MOST_RESOLVED: usize = 100_000;
+
 impl SceneSpec {
     /// Names of all key poses, the built-in one included.
     pub fn pose_names(&self) -> impl Iterator<Item = &str> + Clone {
@@ -60,12 +63,24 @@ impl SceneSpec {
         count(&["shapes"], self.shapes.len(), 1_000)?;
         count(&["characters"], self.characters.len(), 256)?;
         count(&["props"], self.props.len(), 1_000)?;
-        count(&["poses"], self.poses.len(), 10_000)?;
-        count(&["graphs"], self.graphs.len(), 1_000)?;
+        count(&["poses"], self.poses.len(), 1_000)?;
+        count(&["graphs"], self.graphs.len(), 200)?;
         count(&["controllers"], self.controllers.len(), 64)?;
-        count(&["at"], self.at.len(), 100_000)?;
+        count(&["at"], self.at.len(), 10_000)?;
         count(&["when"], self.when.len(), 1_000)?;
         count(&["keys"], self.keys.len(), 1_000)?;
+        // Every character has its own of all poses and states.
+        let states: usize = self.graphs.values().map(|graph| graph.states.len()).sum();
+        let resolved = self.characters.len() * (self.poses.len() + states);
+        if resolved > MOST_RESOLVED {
+            let problem = format!(
+                "{} characters with {} poses and {states} states of graphs are too many: their product is above {MOST_RESOLVED}; \
+                 leave some out",
+                self.characters.len(),
+                self.poses.len()
+            );
+            return Err(Fault::at(&["characters"], problem));
+        }
         match &self.name {
             Some(name) if name.len() > 200 => Err(Fault::at(&["name"], "it is longer than 200 bytes; shorten it")),
             _ => Ok(()),
@@ -118,10 +133,13 @@ impl SceneSpec {
 
     fn check_graph(&self, graph: &str, spec: &GraphSpec) -> Result<(), Fault> {
         let states = || spec.states.keys().map(String::as_str);
+        count(&["graphs", graph, "states"], spec.states.len(), 200)?;
         name(&["graphs", graph, "start"], "state", &spec.start, states())?;
         for (state, body) in &spec.states {
             let path = ["graphs", graph, "states", state];
             name(&[&path[..], &["pose"]].concat(), "pose", &body.pose, self.pose_names())?;
+            count(&[&path[..], &["to"]].concat(), body.to.len(), 100)?;
+            count(&[&path[..], &["feedback"]].concat(), body.feedback.len(), 100)?;
             for (index, way) in body.to.iter().enumerate() {
                 let index = index.to_string();
                 let at = |key| [&path[..], &["to", &index, key]].concat();

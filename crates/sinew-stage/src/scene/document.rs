@@ -2,12 +2,25 @@
 
 use super::error::{Fault, SceneError, known, shortened};
 use super::files::{Files, HeldFile};
+use super::lines::{line_at, line_of, lines_of};
 use std::collections::BTreeMap;
-use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 /// Largest scene or pose file \[bytes\].
 pub(super) const MOST_TEXT_BYTES: u64 = 4 << 20;
+
+/// Largest scene together with its pose files \[bytes\].
+const MOST_TEXTS_BYTES: u64 = 8 << 20;
+
+/// Signs that can begin a table (`{`, `=`, `.`) in a scene together with its pose files: a table takes 2 kB of memory, and
+/// a text of 4 MiB can hold two million. Decimal points count too.
+const MOST_TABLE_SIGNS: usize = 200_000;
+
+/// Commas in a scene together with its pose files, each a value of 200 bytes.
+const MOST_COMMAS: usize = 500_000;
+
+/// All files of a scene together \[bytes\].
+const MOST_FILES_BYTES: u64 = 512 << 20;
 
 /// Deepest path that can be set.
 const DEEPEST: usize = 32;
@@ -28,6 +41,10 @@ pub(super) struct Document {
     origins: BTreeMap<(&'static str, String), String>,
     /// What was changed from outside.
     sets: Vec<(String, String)>,
+    /// Of all texts so far, see [`MOST_TABLE_SIGNS`].
+    table_signs: usize,
+    /// Of all texts so far.
+    commas: usize,
 }
 
 impl Document {
@@ -39,6 +56,8 @@ impl Document {
             name: name.to_owned(),
             origins: BTreeMap::new(),
             sets: sets.to_vec(),
+            table_signs: 0,
+            commas: 0,
         };
         document.table = document.parse(name, files)?;
         // What is set may be the list of pose files, or what stands in one.
@@ -57,17 +76,41 @@ impl Document {
     /// Takes a file in.
     pub fn hold(&mut self, path: &str, files: &dyn Files, most_bytes: u64) -> Result<(), String> {
         if !self.files.contains_key(path) {
-            self.files.insert(path.to_owned(), HeldFile::new(files.read(path, most_bytes)?));
+            let left = MOST_FILES_BYTES - self.held_bytes();
+            let bytes = files.read(path, most_bytes.min(left)).map_err(|problem| match most_bytes > left {
+                true => format!("{problem} (all files of a scene together may have {MOST_FILES_BYTES} bytes)"),
+                false => problem,
+            })?;
+            self.files.insert(path.to_owned(), HeldFile::new(bytes));
         }
         Ok(())
+    }
+
+    fn held_bytes(&self) -> u64 {
+        self.files.values().map(|file| file.bytes.len() as u64).sum()
+    }
+
+    /// Counts what a text will take as a table; whether all texts so far are small enough.
+    fn weigh(&mut self, path: &str) -> bool {
+        let text = self.text(path);
+        let count = |signs: &[u8]| text.bytes().filter(|byte| signs.contains(byte)).count();
+        let (table_signs, commas) = (count(b"{=."), count(b","));
+        self.table_signs += table_signs;
+        self.commas += commas;
+        self.table_signs <= MOST_TABLE_SIGNS && self.commas <= MOST_COMMAS
     }
 
     fn parse(&mut self, path: &str, files: &dyn Files) -> Result<Table, SceneError> {
         let whole = |line, problem| SceneError { file: files.shown(path), line, path: String::new(), problem };
         self.hold(path, files, MOST_TEXT_BYTES).map_err(|problem| whole(None, problem))?;
+        let is_light = self.weigh(path);
         let text = self.text(path);
         if std::str::from_utf8(&self.files[path].bytes).is_err() {
             return Err(whole(None, "this is no UTF-8 text; save it as UTF-8".to_owned()));
+        }
+        if !is_light {
+            let problem = "the scene and its pose files state too many values; leave some out, or make meshes coarser";
+            return Err(whole(None, problem.to_owned()));
         }
         text.parse::<Table>().map_err(|error| {
             let line = error.span().map(|span| line_at(text, span.start));
@@ -85,7 +128,9 @@ impl Document {
         // Anything but a list of texts is told when the stage is read.
         let listed: Vec<String> = listed.into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect();
         for path in listed.iter().take(100) {
-            if let Err(problem) = self.hold(path, files, MOST_TEXT_BYTES) {
+            // Only texts are held yet.
+            let left = MOST_TEXT_BYTES.min(MOST_TEXTS_BYTES - self.held_bytes());
+            if let Err(problem) = self.hold(path, files, left) {
                 let fault = Fault::at(&["stage", "pose_files"], format!("`{}`: {problem}", shortened(path)));
                 return Err(self.place(files, fault));
             }
@@ -225,12 +270,7 @@ impl Document {
 
     /// Lines of the entries of a list of tables.
     pub fn lines(&self, list: &str) -> Vec<usize> {
-        let text = self.text(&self.name);
-        let Ok(table) = DeTable::parse(text) else { return Vec::new() };
-        let found = table.get_ref().iter().find(|(key, _)| key.get_ref() == list);
-        let Some(DeValue::Array(items)) = found.map(|(_, value)| value.get_ref()) else { return Vec::new() };
-        let lines = Lines::of(text);
-        items.iter().map(|item| lines.at(item.span().start)).collect()
+        lines_of(self.text(&self.name), list)
     }
 
     /// Gives a fault its file and line.
@@ -252,54 +292,5 @@ impl Document {
                 problem: fault.problem,
             },
         }
-    }
-}
-
-/// Line of the deepest key of a path that the text has.
-fn line_of(text: &str, path: &[&str]) -> Option<usize> {
-    let table = DeTable::parse(text).ok()?;
-    let mut found = None;
-    let mut inside = Inside::Table(table.get_ref());
-    for key in path {
-        let value = match inside {
-            Inside::Table(table) => {
-                let Some((name, value)) = table.iter().find(|(name, _)| name.get_ref() == key) else { break };
-                found = Some(name.span().start);
-                value
-            }
-            Inside::List(list) => {
-                let Some(value) = key.parse().ok().and_then(|index: usize| list.get(index)) else { break };
-                found = Some(value.span().start);
-                value
-            }
-        };
-        inside = match value.get_ref() {
-            DeValue::Table(table) => Inside::Table(table),
-            DeValue::Array(list) => Inside::List(list),
-            _ => break,
-        };
-    }
-    found.map(|at| line_at(text, at))
-}
-
-enum Inside<'a> {
-    Table(&'a DeTable<'a>),
-    List(&'a toml::de::DeArray<'a>),
-}
-
-fn line_at(text: &str, at: usize) -> usize {
-    1 + text.as_bytes().iter().take(at).filter(|&&byte| byte == b'\n').count()
-}
-
-/// Where lines begin.
-struct Lines(Vec<usize>);
-
-impl Lines {
-    fn of(text: &str) -> Lines {
-        Lines(text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect())
-    }
-
-    fn at(&self, byte: usize) -> usize {
-        1 + self.0.partition_point(|&end| end < byte)
     }
 }

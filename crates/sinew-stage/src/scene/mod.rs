@@ -10,6 +10,7 @@ mod controller;
 mod document;
 mod error;
 mod files;
+mod lines;
 mod prop;
 mod range;
 mod read;

@@ -82,7 +82,7 @@ impl Scene {
     pub fn load(name: &str, source: Arc<dyn Files>, sets: &[(String, String)]) -> Result<Scene, SceneError> {
         let files = source.as_ref();
         let mut document = Document::read(name, files, sets)?;
-        let table = toml::Value::Table(document.table.clone());
+        let table = toml::Value::Table(std::mem::take(&mut document.table));
         let mut spec: SceneSpec = match serde_path_to_error::deserialize(table) {
             Ok(spec) => spec,
             Err(error) => return Err(document.place(files, wording::fault(error))),

@@ -193,8 +193,8 @@ const SIZES_M: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 
 impl MeshSpec {
     fn check(&self) -> Result<(), Fault> {
-        points_check(&self.points_m, 100_000).map_err(|fault| fault.below(&["points_m"]))?;
-        count(&["triangles"], self.triangles.len(), 200_000)?;
+        points_check(&self.points_m, 20_000).map_err(|fault| fault.below(&["points_m"]))?;
+        count(&["triangles"], self.triangles.len(), 40_000)?;
         if self.triangles.is_empty() {
             return Err(Fault::at(&["triangles"], "there are none; list three places in points_m for each"));
         }
