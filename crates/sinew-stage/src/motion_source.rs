@@ -1,7 +1,7 @@
 //! A clip as the source of the wanted pose.
 
 use crate::obey::heading;
-use crate::scene::{CharacterSpec, HeldFile, Scene};
+use crate::scene::{CharacterSpec, Scene};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Person, Pose, Reduction, log};
 use sinew_control::Target;
@@ -22,15 +22,9 @@ const MOST_FRAMES: usize = 216_000;
 
 /// Reads a motion file that a scene names.
 pub(crate) fn read(scene: &Scene, name: &str) -> Result<MotionFile, String> {
-    let options = ReadOptions::default();
-    let wrong = |error: sinew_motion::Error| error.to_string();
-    match (name.to_ascii_lowercase().ends_with(".bvh"), scene.files().get(name), scene.on_disk(name)) {
-        (true, Some(HeldFile { bytes, .. }), _) => {
-            MotionFile::from_bvh(bytes, &options).map_err(|e| format!("{name}: {e}"))
-        }
-        (_, _, Some(path)) => MotionFile::read(&path, &options).map_err(wrong),
-        _ => Err(format!("{name}: a take holds BVH clips only; convert the clip with `sinew convert`")),
-    }
+    // From the bytes that the scene holds: a take has them too.
+    let held = scene.files().get(name).ok_or_else(|| format!("{name}: the scene was read without it"))?;
+    MotionFile::from_bytes(name.as_ref(), &held.bytes, &ReadOptions::default()).map_err(|error| error.to_string())
 }
 
 /// The body in a motion file, with the scene's mass and height.

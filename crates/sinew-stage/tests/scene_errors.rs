@@ -301,6 +301,21 @@ fn files_are_named_relative_to_the_scene() {
 }
 
 #[test]
+fn a_file_of_another_kind_is_not_taken_in() {
+    // A take holds copies of a scene's files; a stranger's scene must not make it hold a key.
+    let table = [
+        ("[characters.one]\nclip = \"../.ssh/id_rsa\"\n", "characters.one.clip", ".bvh, .glb, .gltf, .fbx"),
+        ("[characters.one]\nsource.clip = \"walk.amc\"\n", "characters.one.source.clip", "`sinew convert`"),
+        ("[controllers.One]\nfile = \"notes.txt\"\n", "controllers.One.file", "ends in .py"),
+        ("[stage]\npose_files = [\"poses\"]\n", "stage.pose_files", "ends in .toml"),
+    ];
+    for (text, path, remedy) in table {
+        let said = complaint(&format!("format = 1\n{text}"));
+        assert!(said.starts_with(&format!("scene.toml, line 3: {path}: ")) && said.contains(remedy), "{said}");
+    }
+}
+
+#[test]
 fn what_is_read_has_limits() {
     let many = |count: usize| {
         let props: String = (0..count).map(|at| format!("[props.p{at}]\nball_radius_m = 1\nfixed = true\n")).collect();

@@ -80,6 +80,27 @@ impl MotionFile {
         MotionFile::understood(PathBuf::new(), Format::Bvh, parsed, options)
     }
 
+    /// Reads a motion from memory; the name's extension tells the format. Nothing is read from a disk: a glTF must hold its
+    /// buffers itself, and an AMC, whose skeleton is another file, is refused.
+    ///
+    /// # Errors
+    /// As [`MotionFile::read`].
+    pub fn from_bytes(name: &Path, bytes: &[u8], options: &ReadOptions) -> Result<MotionFile, Error> {
+        let format = format_of(name)?;
+        let limits = &options.limits;
+        let parsed = match format {
+            Format::Bvh => bvh::read(bytes, limits),
+            Format::Fbx => fbx::read(bytes, limits),
+            Format::Gltf | Format::Glb => gltf::read_slice(bytes, None, limits),
+            Format::Amc => {
+                let problem = "the skeleton of an AMC is in another file";
+                Err(Error::new(Place::File, problem, "convert it with `sinew convert` to .bvh or .glb"))
+            }
+        }
+        .map_err(|error| error.in_file(name))?;
+        MotionFile::understood(name.to_owned(), format, parsed, options)
+    }
+
     fn understood(path: PathBuf, format: Format, parsed: Parsed, options: &ReadOptions) -> Result<MotionFile, Error> {
         if let Some(unit_m) = options.unit_m
             && !(1e-6..=1e3).contains(&unit_m)

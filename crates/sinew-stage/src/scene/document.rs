@@ -1,7 +1,7 @@
 //! The text of a scene and its pose files as one table, with the way back from a key to its file and line.
 
 use super::error::{Fault, SceneError, known, shortened};
-use super::files::{Files, HeldFile};
+use super::files::{FileKind, Files, HeldFile, of_kind};
 use super::lines::{line_at, line_of, lines_of};
 use std::collections::BTreeMap;
 use toml::{Table, Value};
@@ -130,7 +130,8 @@ impl Document {
         for path in listed.iter().take(100) {
             // Only texts are held yet.
             let left = MOST_TEXT_BYTES.min(MOST_TEXTS_BYTES - self.held_bytes());
-            if let Err(problem) = self.hold(path, files, left) {
+            let held = of_kind(path, &FileKind::POSES).and_then(|()| self.hold(path, files, left));
+            if let Err(problem) = held {
                 let fault = Fault::at(&["stage", "pose_files"], format!("`{}`: {problem}", shortened(path)));
                 return Err(self.place(files, fault));
             }

@@ -107,6 +107,37 @@ pub(crate) fn allowed(path: &str) -> Result<(), String> {
     Ok(())
 }
 
+/// Whether a file's name ends as one of its kind does. A scene from a stranger can so not make a take, which holds copies of
+/// the scene's files, carry something else away.
+///
+/// # Errors
+/// How it should end.
+pub(crate) fn of_kind(path: &str, kind: &FileKind) -> Result<(), String> {
+    let extension = Path::new(path).extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    if kind.extensions.iter().any(|known| known.eq_ignore_ascii_case(extension)) {
+        return Ok(());
+    }
+    Err(format!("{} is expected, a file that ends in .{}", kind.what, kind.extensions.join(", .")))
+}
+
+/// A kind of file that a scene may name.
+pub(crate) struct FileKind {
+    what: &'static str,
+    extensions: &'static [&'static str],
+}
+
+impl FileKind {
+    /// Poses and graphs.
+    pub const POSES: FileKind = FileKind { what: "a pose file", extensions: &["toml"] };
+    /// Python controllers.
+    pub const PYTHON: FileKind = FileKind { what: "a Python file", extensions: &["py"] };
+    /// Motions in one file: an AMC's skeleton is in another, so convert it.
+    pub const CLIP: FileKind = FileKind {
+        what: "a motion in one file (`sinew convert` makes one of .amc and .asf)",
+        extensions: &["bvh", "glb", "gltf", "fbx"],
+    };
+}
+
 fn within(bytes: Vec<u8>, most_bytes: u64) -> Result<Vec<u8>, String> {
     if bytes.len() as u64 > most_bytes {
         return Err(format!("the file is larger than the {most_bytes} bytes allowed; make it smaller"));

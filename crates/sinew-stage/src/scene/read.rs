@@ -3,6 +3,7 @@
 use super::command_check::MOST_PYTHON_BYTES;
 use super::document::Document;
 use super::error::{Fault, shortened};
+use super::files::{FileKind, of_kind};
 use super::wording;
 use super::{ControllerSpec, DiskFiles, Files, HeldFile, SceneError, SceneSpec};
 use sinew_body::humanoid::Node;
@@ -88,8 +89,9 @@ impl Scene {
             Err(error) => return Err(document.place(files, wording::fault(error))),
         };
         spec.check().map_err(|fault| document.place(files, fault))?;
-        for (path, file, most_bytes) in named_files(&spec) {
-            let held = document.hold(&file, files, most_bytes);
+        for (path, file, kind, most_bytes) in named_files(&spec) {
+            let held = super::files::allowed(&file).and_then(|()| of_kind(&file, &kind));
+            let held = held.and_then(|()| document.hold(&file, files, most_bytes));
             held.map_err(|problem| {
                 document.place(files, Fault::at(&path, format!("`{}`: {problem}", shortened(&file))))
             })?;
@@ -170,21 +172,21 @@ impl Scene {
     }
 }
 
-/// Files that a scene names besides its pose files: where, which, and how large at most.
-fn named_files(spec: &SceneSpec) -> Vec<(Vec<String>, String, u64)> {
+/// Files that a scene names besides its pose files: where, which, of what kind, and how large at most.
+fn named_files(spec: &SceneSpec) -> Vec<(Vec<String>, String, FileKind, u64)> {
     let mut files = Vec::new();
-    let mut add = |path: &[&str], file: &Option<String>, most_bytes: u64| {
+    let mut add = |path: &[&str], file: &Option<String>, kind: FileKind, most_bytes: u64| {
         if let Some(file) = file {
-            files.push((path.iter().map(|key| (*key).to_owned()).collect(), file.clone(), most_bytes));
+            files.push((path.iter().map(|key| (*key).to_owned()).collect(), file.clone(), kind, most_bytes));
         }
     };
     for (name, character) in &spec.characters {
-        add(&["characters", name, "clip"], &character.clip, MOST_CLIP_BYTES);
+        add(&["characters", name, "clip"], &character.clip, FileKind::CLIP, MOST_CLIP_BYTES);
         let clip = character.source.as_ref().and_then(|source| source.clip.clone());
-        add(&["characters", name, "source", "clip"], &clip, MOST_CLIP_BYTES);
+        add(&["characters", name, "source", "clip"], &clip, FileKind::CLIP, MOST_CLIP_BYTES);
     }
     for (name, controller) in &spec.controllers {
-        add(&["controllers", name, "file"], &controller.file, MOST_PYTHON_BYTES as u64);
+        add(&["controllers", name, "file"], &controller.file, FileKind::PYTHON, MOST_PYTHON_BYTES as u64);
     }
     files
 }
