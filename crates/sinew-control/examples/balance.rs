@@ -8,7 +8,7 @@
 mod pushed;
 
 use glam::DVec3;
-use pushed::{GUARD, KNEES_BENT, Place, Push, STRIDE, Standing, Turns, stood_n_s};
+use pushed::{GUARD, KNEES_BENT, Outcome, Place, outcome, Push, STRIDE, Standing, Turns, stood_n_s};
 use sinew_body::humanoid::{Body, Node, log};
 use sinew_control::reflex::BalanceSettings;
 use sinew_picture::{Arrow, Camera, Capsule, Figure, Filmstrip, Panel, Shade, Style};
@@ -64,6 +64,28 @@ fn table() {
     println!("worst {:.0} %", 100.0 * worst);
 }
 
+/// What each of twenty impulses up to the bound comes to: a letter each, `.` for standing.
+fn scan() {
+    let mut standing = make();
+    standing.run(pushed::PUSH_AT_SECS, None);
+    for azimuth_deg in [0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0] {
+        let mut push = Push { azimuth_deg, impulse_n_s: 0.0, for_secs: 0.1, place: place() };
+        let bound = standing.bound_n_s(push.direction());
+        let row: String = (1..=24)
+            .map(|part| {
+                push.impulse_n_s = bound * f64::from(part) / 20.0;
+                match outcome(&make, &push) {
+                    Outcome::Stands => '.',
+                    Outcome::Fell => 'F',
+                    Outcome::Stepped => 's',
+                    Outcome::Unquiet => 'u',
+                }
+            })
+            .collect();
+        println!("{azimuth_deg:4} {row}");
+    }
+}
+
 fn report(standing: &Standing) {
     let me = &standing.world.frame().characters[0];
     let soles = |node: Node| me.part(node).rotation * DVec3::Y;
@@ -77,7 +99,7 @@ fn report(standing: &Standing) {
     };
     let bend = |node: Node| log(me.pose().local(node)) * 57.3;
     println!(
-        "{:.2} com {:.3} {:.3} {:.3} v {:.3} {:.3} {:.3} hips {:.1} chest {:.1} hip {:.1} knee {:.0} {:.0} ankle {:.1} load {:.0} {:.0} tilt {:.3} {:.3} margin {:.3} neck {:.1} head {:.1}",
+        "{:.2} com {:.3} {:.3} {:.3} v {:.3} {:.3} {:.3} hips {:.1} chest {:.1} hip {:.1} knee {:.0} {:.0} ankle {:.1} load {:.0} {:.0} tilt {:.3} {:.3} margin {:.3} neck {:.1} head {:.1} feet {:.1} {:.1} at {:.3} {:.3}",
         standing.world.frame().time_secs,
         me.centre_of_mass.x,
         me.centre_of_mass.y,
@@ -98,6 +120,10 @@ fn report(standing: &Standing) {
         sinew_world::margin(&me.support, me.centre_of_mass),
         bend(Node::Neck),
         bend(Node::Head),
+        log(me.part(Node::LeftFoot).rotation).y * 57.3,
+        log(me.part(Node::RightFoot).rotation).y * 57.3,
+        me.part(Node::LeftFoot).position,
+        me.part(Node::RightFoot).position,
     );
 }
 
@@ -173,6 +199,7 @@ fn main() {
     let number = |at: usize| arguments.get(at).and_then(|text| text.parse().ok()).unwrap_or(0.0);
     match arguments.first().map(String::as_str) {
         Some("push") => push(number(1), number(2), arguments.get(3).map(String::as_str)),
+        Some("scan") => scan(),
         _ => table(),
     }
 }

@@ -52,7 +52,7 @@ impl Arms {
         {
             let above = me.part(shoulder).rotation;
             let joint = target.joint_mut(arm);
-            let hanging = smooth(2.0 * (joint.rotation * DVec3::Y).y - 1.0);
+            let hanging = smooth(4.0 * (joint.rotation * DVec3::Y).y - 3.0);
             let free = strength * hanging * joint.gain.min(1.0);
             let outer = if self.roll.angle * side > 0.0 { 1.0 } else { 0.0 };
             let turn = me.left() * self.pitch.angle + me.facing * (self.roll.angle * outer);

@@ -26,7 +26,7 @@ const GRIP: f64 = 0.7;
 /// Share of the weight from which on a foot is taken to touch \[1\].
 const TOUCHING: f64 = 0.05;
 
-/// Share of its stiffness with which a joint that is held by torques keeps its twist \[1\]. A twisted foot creeps: the solver's
+/// Share of its stiffness with which a joint that is held by torques keeps its twist while both feet stand \[1\]. A twisted foot creeps: the solver's
 /// friction lets a strong spring turn it, and in the wrong direction.
 const TWIST_GAIN: f64 = 0.1;
 
@@ -74,6 +74,9 @@ pub(super) fn drive(
         let force = ground.forces[side];
         // What does not touch the ground cannot push it.
         let held = strength * smooth(share / 0.15) * smooth(load_n[side] / (TOUCHING * weight));
+        // A leg that stands alone keeps the hips' heading.
+        let shared = smooth(load_n[1 - side] / (0.2 * weight));
+        let twist_gain = 1.0 + (TWIST_GAIN - 1.0) * shared;
         let nodes = leg(side);
         let (ankle, hip) = (me.part(nodes[0]).position, me.part(nodes[2]).position);
         let line = (hip - ankle).try_normalize().unwrap_or(DVec3::Y);
@@ -112,7 +115,7 @@ pub(super) fn drive(
                         Some(print.cross(line))
                     }
                 };
-                yield_across(sense, node, astray, held, damping, joint);
+                yield_across(sense, node, astray, held, (twist_gain, damping), joint);
             }
         }
     }
@@ -120,8 +123,16 @@ pub(super) fn drive(
 
 /// Lets a joint's spring go but for the twist about its bone, so that torques alone act about the other axes as far as the leg is
 /// `held` by them. The spring's wanted place follows the joint: it still keeps light parts from chattering within a step.
-/// Without a load the spring aims at the pose, or turns the joint by `astray` (world axes).
-fn yield_across(sense: &Sense, node: Node, astray: Option<DVec3>, held: f64, damping: f64, joint: &mut JointTarget) {
+/// Without a load the spring aims at the pose, or turns the joint by `astray` (world axes). Held, it has these shares
+/// of its gain and damping.
+fn yield_across(
+    sense: &Sense,
+    node: Node,
+    astray: Option<DVec3>,
+    held: f64,
+    (gain, damping): (f64, f64),
+    joint: &mut JointTarget,
+) {
     let Some(parent) = node.parent() else { return };
     let me = sense.character();
     let (above, part) = (me.part(parent), me.part(node));
@@ -138,11 +149,16 @@ fn yield_across(sense: &Sense, node: Node, astray: Option<DVec3>, held: f64, dam
         None => log(joint.rotation * local.conjugate()) - along,
     };
     joint.rotation = (exp(along + across * (1.0 - held)) * local).normalize();
-    let spin = part.rotation.conjugate() * (part.angular_velocity - above.angular_velocity);
+    let node_from_world = part.rotation.conjugate();
+    let spin = node_from_world * (part.angular_velocity - above.angular_velocity);
+    if astray.is_some() {
+        // It does not go along with what turns above it.
+        joint.velocity = node_from_world * -above.angular_velocity;
+    }
     // Damping acts on the twist alone.
     joint.velocity = joint.velocity.lerp(spin.with_y(joint.velocity.y), held);
-    joint.gain *= 1.0 + (TWIST_GAIN - 1.0) * held;
-    joint.damping *= 1.0 + (damping / TWIST_GAIN.sqrt() - 1.0) * held;
+    joint.gain *= 1.0 + (gain - 1.0) * held;
+    joint.damping *= 1.0 + (damping / gain.sqrt() - 1.0) * held;
 }
 
 /// 0 below 0, 1 above 1, smooth between.
