@@ -1,34 +1,22 @@
-//! Pushes a standing character from eight directions and prints the impulse up to which it stands:
-//! `cargo run --release -p sinew-control --example balance -- table`,
-//! or draws one push: `... -- push AZIMUTH_DEG IMPULSE_N_S OUT.png`.
-
-#![allow(clippy::collapsible_if, reason = "the two questions are apart")]
+//! Pushes a standing character from eight directions:
+//! `cargo run --release -p sinew-control --example balance -- table` prints the impulse up to which it stands,
+//! `... -- scan` what each of many impulses comes to, `... -- push AZIMUTH_DEG IMPULSE_N_S OUT.png` draws one push. Azimuths count
+//! from straight ahead towards the left.
+//!
+//! Set in the environment: `KG` and `M` (the body), `POSE` (`knees`, `stride`, `guard`), `CHEST=1` (push there instead of on the
+//! hips), `VIEW` (`side`, `front`), `SECS` (how long a push is shown).
 
 #[path = "../tests/pushed/mod.rs"]
 mod pushed;
 
 use glam::DVec3;
-use pushed::{GUARD, KNEES_BENT, Outcome, Place, outcome, Push, STRIDE, Standing, Turns, stood_n_s};
+use pushed::{GUARD, KNEES_BENT, Outcome, Place, Push, STRIDE, Standing, Turns, outcome, stood_n_s};
 use sinew_body::humanoid::{Body, Node, log};
 use sinew_control::reflex::BalanceSettings;
 use sinew_picture::{Arrow, Camera, Capsule, Figure, Filmstrip, Panel, Shade, Style};
 
 fn env(name: &str, or: f64) -> f64 {
     std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(or)
-}
-
-fn settings() -> BalanceSettings {
-    let d = BalanceSettings::default();
-    BalanceSettings {
-        firmness: env("FIRM", d.firmness),
-        rest_share: env("REST", d.rest_share),
-        edge_margin: env("EDGE", d.edge_margin),
-        upright_hz: env("UP", d.upright_hz),
-        upright_damping: env("UPZ", d.upright_damping),
-        trunk_moment: env("TRUNK", d.trunk_moment),
-        trunk_lean: [env("LEANF", d.trunk_lean[0]), env("LEANB", d.trunk_lean[1]), env("LEANS", d.trunk_lean[2])],
-        arm_swing: env("ARMS", d.arm_swing),
-    }
 }
 
 fn make() -> Standing {
@@ -38,7 +26,7 @@ fn make() -> Standing {
         Ok("stride") => STRIDE,
         _ => &[],
     };
-    Standing::new(Body::standard(env("KG", 80.0), env("M", 1.7)), turns, settings())
+    Standing::new(Body::standard(env("KG", 80.0), env("M", 1.7)), turns, BalanceSettings::default())
 }
 
 fn place() -> Place {
@@ -152,9 +140,7 @@ fn push(azimuth_deg: f64, impulse_n_s: f64, path: Option<&str>) {
         let time = standing.world.frame().time_secs;
         let every = if (2.0..3.0).contains(&time) { 12 } else { 120 };
         if step % every == 0 {
-            if std::env::var("QUIET").is_err() {
-                report(&standing);
-            }
+            report(&standing);
         }
         if (1.95..4.5).contains(&time) && step % 24 == 0 {
             let me = &standing.world.frame().characters[0];

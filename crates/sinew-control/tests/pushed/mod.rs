@@ -46,7 +46,8 @@ pub struct Standing {
     pub reflex: Balance,
     pub tracker: PdTracker,
     pub target: Target,
-    wanted: Target,
+    /// What the pose wants.
+    pub wanted: Target,
     start: [DVec3; 2],
 }
 
@@ -54,7 +55,13 @@ pub struct Standing {
 pub type Turns<'a> = &'a [(Node, [f64; 3])];
 
 impl Standing {
+    /// At the origin, facing +Z.
     pub fn new(body: Body, turns: Turns, settings: BalanceSettings) -> Standing {
+        Standing::placed(body, turns, settings, DVec3::ZERO, 0.0)
+    }
+
+    /// Elsewhere, its soles at the height of `place`, turned about +Y \[rad\].
+    pub fn placed(body: Body, turns: Turns, settings: BalanceSettings, place: DVec3, heading_rad: f64) -> Standing {
         let mut locals = [DQuat::IDENTITY; Node::COUNT];
         for (node, degrees) in turns {
             locals[node.index()] = exp(DVec3::from_array(*degrees) * std::f64::consts::PI / 180.0);
@@ -63,9 +70,9 @@ impl Standing {
         let mut pose = Pose::from_locals(DVec3::ZERO, &locals);
         let (upper, lower, foot) = LEGS[0];
         let level = (locals[upper.index()] * locals[lower.index()] * locals[foot.index()]).conjugate();
-        locals[0] = level;
+        locals[0] = DQuat::from_rotation_y(heading_rad) * level;
         pose = Pose::from_locals(pose.hips_position, &locals);
-        pose.hips_position.y = hips_over_soles_m(&body, &pose);
+        pose.hips_position = place + DVec3::Y * hips_over_soles_m(&body, &pose);
         let mut wanted = Target::STANDING;
         for node in Node::ALL.into_iter().skip(1) {
             *wanted.joint_mut(node) = JointTarget { rotation: locals[node.index()], ..JointTarget::REST };

@@ -41,7 +41,7 @@ pub(super) struct Stance {
 
 impl Stance {
     /// `bearing` is how far each foot is taken for one that stands, 0 to 1.
-    pub fn of(sense: &Sense, feet: &[Footing; 2], bearing: &[f64; 2]) -> Stance {
+    pub fn of(sense: &Sense, feet: &[Footing; 2], bearing: &[f64; 2], ground_velocity: DVec2) -> Stance {
         let me = sense.character();
         let stands = bearing.map(|bearing| bearing > 0.5);
         let (mut points, mut count) = ([DVec2::ZERO; 8], 0);
@@ -67,7 +67,7 @@ impl Stance {
             ground_m,
             height_m,
             centre,
-            capture: centre + flat(me.centre_velocity) / omega,
+            capture: centre + (flat(me.centre_velocity) - ground_velocity) / omega,
         }
     }
 }
