@@ -93,7 +93,8 @@ impl Stage {
         Ok(stage)
     }
 
-    /// Gives a command; it is obeyed at the beginning of the next step.
+    /// Gives a command; it is obeyed at the beginning of the next step. One that does not suit the scene is noted among the
+    /// events as refused, with the reason, and does nothing else.
     pub fn command(&mut self, command: Command) {
         if self.inbox.len() < MOST_INBOX {
             self.inbox.push(command);
@@ -129,8 +130,14 @@ impl Stage {
         let prescribed = prescribed.filter(|stamped| !matches!(stamped.command.action, Action::ScriptKilled { .. }));
         self.inbox.extend(prescribed.map(|stamped| stamped.command.clone()).collect::<Vec<_>>());
         for command in std::mem::take(&mut self.inbox) {
-            self.record.push(Stamped { step, command: command.clone() });
-            self.obey(&command, "command");
+            // What is refused here is not recorded: a take holds only what it can give again.
+            match self.scene.check_command(&command) {
+                Ok(()) => {
+                    self.record.push(Stamped { step, command: command.clone() });
+                    self.obey(&command, "command");
+                }
+                Err(problem) => self.note("command", format!("refused: {problem}")),
+            }
         }
         for (command, cause) in self.reactions.fired(self.world.frame(), &self.cast) {
             self.obey(&command, &cause);
@@ -151,6 +158,12 @@ impl Stage {
     /// Commands that are given at their steps, as a take recorded them. Scripts are stopped where the take says so.
     pub fn prescribe(&mut self, commands: Vec<Stamped>) {
         self.prescribed = Some(commands);
+    }
+
+    /// Steps the world on this many threads from now on, 1 to 64, and says on how many: always 1 without the feature `threads`.
+    /// The number changes no bit of what comes out.
+    pub fn set_threads(&mut self, threads: usize) -> usize {
+        self.world.set_threads(threads)
     }
 
     /// The world, to look at.

@@ -28,6 +28,10 @@ pub(super) struct Run {
     /// obeyed: a key of the scene, or a command as JSON such as {"character":"left","do":"pose","name":"guard"}.
     #[arg(long)]
     real_time: bool,
+    /// Step the world on this many threads: a gain for crowds, with the same bits.
+    #[cfg(feature = "threads")]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=64))]
+    threads: u16,
     /// Where to record the take, for `sinew replay`.
     #[arg(long, value_name = "T.take")]
     take: Option<PathBuf>,
@@ -85,7 +89,11 @@ impl Run {
             scene.set(path, value)?;
         }
         let bar = bar();
-        let job = RunJob { for_secs: self.for_secs, host: script_host(), presses: self.press.clone() };
+        #[cfg(feature = "threads")]
+        let threads = usize::from(self.threads);
+        #[cfg(not(feature = "threads"))]
+        let threads = 1;
+        let job = RunJob { for_secs: self.for_secs, host: script_host(), presses: self.press.clone(), threads };
         let for_picture = scene.clone();
         let mut session = self.real_time.then(|| Session::begin(&scene));
         let ran = run(scene, &job, |stage, done, of| match &mut session {

@@ -14,6 +14,8 @@ pub struct RunJob {
     pub host: Option<ScriptHost>,
     /// Keys of the scene that are pressed, with the time of each \[s\].
     pub presses: Vec<(f64, String)>,
+    /// Threads that step the world; 0 means one. More than one need the feature `threads` and change no bit.
+    pub threads: usize,
 }
 
 /// A run: the report, the motion, the take.
@@ -71,7 +73,8 @@ pub fn run(scene: Scene, job: &RunJob, before_step: impl FnMut(&mut Stage, u64, 
     }
     let steps = (for_secs * f64::from(scene.stage.physics_hz)).round().max(1.0) as u64;
     let take = Take::of(&scene);
-    let stage = Stage::new(scene, job.host.clone())?;
+    let mut stage = Stage::new(scene, job.host.clone())?;
+    stage.set_threads(job.threads.max(1));
     let mut presses = job.presses.clone();
     presses.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     if let Some((_, key)) = presses.iter().find(|(_, key)| !stage.scene().keys.iter().any(|bound| bound.key == *key)) {
