@@ -3,6 +3,7 @@
 use super::error::{known, shortened};
 use super::stage::MOST_SECS;
 use super::{REFLEXES, SceneSpec, TrackerKind};
+use sinew_body::humanoid::Limb;
 use sinew_control::{Action, Command};
 use std::ops::RangeInclusive;
 
@@ -61,6 +62,10 @@ impl SceneSpec {
             }
             A::Ik { link, target_m } => {
                 some_part(link)?;
+                let node = link.as_deref().and_then(|link| self.owner(command).ok()?.node(link));
+                if let Some(node) = node.filter(|node| Limb::of(*node).is_none()) {
+                    return Err(format!("{} is no part of an arm or a leg; name a hand or a foot", node.part()));
+                }
                 three("target_m", *target_m, 1e5)
             }
             A::IkRelease { link } => some_part(link),
