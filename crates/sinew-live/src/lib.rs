@@ -4,3 +4,6 @@
 //! does the rest.
 //!
 //! [`Command`]: sinew_control::Command
+
+#[cfg(feature = "session")]
+pub mod session;

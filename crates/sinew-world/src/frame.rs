@@ -110,6 +110,21 @@ impl CharacterFrame {
 }
 
 impl Frame {
+    /// A number over the bits of every place and velocity: equal for equal worlds, on any machine. Whoever was sent the frame
+    /// can compute it and compare it with everybody else's of the same [`Frame::step`].
+    pub fn hash(&self) -> u64 {
+        let mut hasher = xxhash_rust::xxh3::Xxh3::new();
+        let parts = self.characters.iter().flat_map(|character| &character.parts);
+        for body in parts.chain(&self.props) {
+            let rotation = [body.rotation.x, body.rotation.y, body.rotation.z, body.rotation.w];
+            let vectors = [body.position, body.velocity, body.angular_velocity];
+            for number in vectors.iter().flat_map(|vector| vector.to_array()).chain(rotation) {
+                hasher.update(&number.to_bits().to_le_bytes());
+            }
+        }
+        hasher.digest()
+    }
+
     /// Contacts that something takes part in.
     pub fn touching(&self, entity: Entity) -> impl Iterator<Item = &Contact> {
         self.contacts.iter().filter(move |contact| contact.a == entity || contact.b == entity)

@@ -189,18 +189,9 @@ impl World {
         }
     }
 
-    /// A number over the bits of every place and velocity: equal for equal worlds, on any machine.
+    /// The hash of its [`Frame`].
     pub fn hash(&self) -> u64 {
-        let mut hasher = xxhash_rust::xxh3::Xxh3::new();
-        let parts = self.frame.characters.iter().flat_map(|character| &character.parts);
-        for body in parts.chain(&self.frame.props) {
-            let rotation = [body.rotation.x, body.rotation.y, body.rotation.z, body.rotation.w];
-            let vectors = [body.position, body.velocity, body.angular_velocity];
-            for number in vectors.iter().flat_map(|vector| vector.to_array()).chain(rotation) {
-                hasher.update(&number.to_bits().to_le_bytes());
-            }
-        }
-        hasher.digest()
+        self.frame.hash()
     }
 
     /// The largest gap between two parts at their joint, over all characters \[m\].
@@ -261,7 +252,8 @@ impl World {
 const NEAR_M: f64 = 0.004;
 
 impl CharacterFrame {
-    pub(crate) const EMPTY: CharacterFrame = CharacterFrame {
+    /// A character of which nothing is known yet: at rest at the origin.
+    pub const EMPTY: CharacterFrame = CharacterFrame {
         parts: [BodyState::REST; Node::COUNT],
         centre_of_mass: DVec3::ZERO,
         centre_velocity: DVec3::ZERO,

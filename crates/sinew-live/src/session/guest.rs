@@ -1,0 +1,310 @@
+//! One client, seen from the server: from its first word to its last.
+
+use super::channel::{hear, say};
+use super::desk::{Order, Placed, Sent, Shared, count};
+use super::limits::*;
+use super::message::{ClientSays, Hello, ServerSays, Welcome, short};
+use super::pace::Pace;
+use super::seats::Seats;
+use super::server::{Playbill, Stranger};
+use super::upward::Upward;
+use super::{Refusal, Role, SessionError, permit};
+use base64::Engine;
+use base64::engine::general_purpose::URL_SAFE_NO_PAD;
+use quinn::{Connection, RecvStream, SendStream};
+use std::collections::VecDeque;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::SyncSender;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use subtle::ConstantTimeEq;
+use tokio::sync::{mpsc, watch};
+use tokio::time::timeout;
+
+/// Why a connection is closed, for the other side's words.
+pub(super) const CLOSED: u32 = 0;
+pub(super) const REFUSED: u32 = 1;
+pub(super) const GARBAGE: u32 = 2;
+pub(super) const REPLACED: u32 = 3;
+
+/// What all guests share.
+pub(super) struct House {
+    pub bill: Playbill,
+    pub seats: Mutex<Seats<Connection>>,
+    pub secrets: [(Role, [u8; 32]); 2],
+    pub order: SyncSender<Placed>,
+    pub frames: watch::Receiver<Sent>,
+    pub shared: Arc<Shared>,
+    pub most_clients: usize,
+}
+
+/// A client that is in.
+struct Guest {
+    number: u64,
+    role: Role,
+    actors: Vec<String>,
+    by: Arc<str>,
+    house: Arc<House>,
+    connection: Connection,
+}
+
+/// Hears who it is, and keeps it as long as it stays.
+pub(super) async fn receive(house: Arc<House>, number: u64, connection: Connection, stranger: Stranger) {
+    let greeted = timeout(HELLO_WITHIN, greet(&house, number, &connection)).await;
+    drop(stranger);
+    let (guest, to, from) = match greeted {
+        Ok(Ok(greeted)) => greeted,
+        Ok(Err(_)) | Err(_) => {
+            count(&house.shared.counts.strangers_refused);
+            connection.close(GARBAGE.into(), b"no greeting");
+            return;
+        }
+    };
+    let Some(guest) = guest else {
+        count(&house.shared.counts.strangers_refused);
+        refuse_politely(&connection, to).await;
+        return;
+    };
+    count(&house.shared.counts.joined);
+    let ended = guest.stay(to, from).await;
+    house.seats().leave(number);
+    house.shared.counts.present.fetch_sub(1, Ordering::Relaxed);
+    match ended {
+        Ok(()) => connection.close(CLOSED.into(), b"goodbye"),
+        Err(SessionError::Malformed(problem)) => connection.close(GARBAGE.into(), short(&problem).as_bytes()),
+        Err(error) => connection.close(CLOSED.into(), short(&error.to_string()).as_bytes()),
+    }
+}
+
+/// Waits a moment until the refusal has been read.
+async fn refuse_politely(connection: &Connection, mut to: SendStream) {
+    let _ = to.finish();
+    let _ = timeout(Duration::from_secs(2), to.stopped()).await;
+    connection.close(REFUSED.into(), b"refused");
+}
+
+/// Reads the greeting. `None` when the client has been told why it is refused.
+async fn greet(
+    house: &Arc<House>,
+    number: u64,
+    connection: &Connection,
+) -> Result<(Option<Guest>, SendStream, RecvStream), SessionError> {
+    let (mut to, mut from) = connection.accept_bi().await.map_err(|error| SessionError::Ended(error.to_string()))?;
+    let bytes = hear(&mut from, MOST_HELLO).await?;
+    match house.admit(number, &bytes.unwrap_or_default(), connection) {
+        Ok((role, actors)) => {
+            let by = if actors.is_empty() { role.name().to_owned() } else { actors.join(", ") };
+            let (house, connection) = (Arc::clone(house), connection.clone());
+            Ok((Some(Guest { number, role, actors, by: by.into(), house, connection }), to, from))
+        }
+        Err(refusal) => {
+            say(&mut to, &ServerSays::Refused(refusal)).await?;
+            Ok((None, to, from))
+        }
+    }
+}
+
+impl House {
+    fn seats(&self) -> MutexGuard<'_, Seats<Connection>> {
+        self.seats.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Decides whether somebody may come in, and as whom.
+    fn admit(&self, number: u64, hello: &[u8], connection: &Connection) -> Result<(Role, Vec<String>), Refusal> {
+        let hello = Hello::read(hello)?;
+        let shown = URL_SAFE_NO_PAD.decode(&hello.secret).unwrap_or_default();
+        // Both are compared, each in the same time whatever it is.
+        let mut role = None;
+        for (of, secret) in &self.secrets {
+            if bool::from(secret.as_slice().ct_eq(&shown)) {
+                role = Some(*of);
+            }
+        }
+        let role = role.ok_or(Refusal::Secret)?;
+        let present = &self.shared.counts.present;
+        if present.fetch_add(1, Ordering::Relaxed) >= self.most_clients as u64 {
+            present.fetch_sub(1, Ordering::Relaxed);
+            return Err(Refusal::Full);
+        }
+        let claimed = self.seats().claim(number, &hello.actors, connection, Instant::now());
+        match claimed {
+            Ok(lost) => {
+                for connection in lost {
+                    connection.close(REPLACED.into(), b"the actor has joined anew");
+                }
+                Ok((role, hello.actors))
+            }
+            Err(refusal) => {
+                present.fetch_sub(1, Ordering::Relaxed);
+                Err(refusal)
+            }
+        }
+    }
+}
+
+impl Guest {
+    /// Until it leaves, is cut off or breaks a rule.
+    async fn stay(&self, mut to: SendStream, from: RecvStream) -> Result<(), SessionError> {
+        let bill = &self.house.bill;
+        let welcome = Welcome {
+            role: self.role,
+            actors: self.actors.clone(),
+            step: self.house.shared.step.load(Ordering::Relaxed),
+            physics_hz: bill.physics_hz,
+            seed: bill.seed,
+            scene_bytes: bill.scene.len() as u64,
+        };
+        let (note, notes) = mpsc::channel(16);
+        let begin = async {
+            say(&mut to, &ServerSays::Welcome(welcome)).await?;
+            to.write_all(&bill.scene).await.map_err(|error| SessionError::Ended(error.to_string()))?;
+            Ok(to)
+        };
+        let speak = async {
+            let slow = |_| Err(SessionError::Ended("it does not take the scene".to_owned()));
+            let to = timeout(SCENE_WITHIN, begin).await.unwrap_or_else(slow)?;
+            tell(to, notes).await
+        };
+        tokio::select! {
+            ended = speak => ended,
+            ended = self.hear_control(from, &note) => ended,
+            ended = self.hear_datagrams() => ended,
+            ended = self.show() => ended,
+        }
+    }
+
+    /// Commands and keys. One that sends more than it may is read no faster: its own stream fills, and nobody else's.
+    async fn hear_control(&self, mut from: RecvStream, note: &mpsc::Sender<String>) -> Result<(), SessionError> {
+        let mut pace = Pace::new(CONTROL_PER_SEC, Instant::now());
+        while let Some(bytes) = hear(&mut from, MOST_CLIENT_MESSAGE).await? {
+            while let Err(wait) = pace.take(Instant::now()) {
+                tokio::time::sleep(wait).await;
+            }
+            self.is_heard()?;
+            let passed = match ClientSays::read(&bytes).map_err(SessionError::Malformed)? {
+                ClientSays::Leave => return Ok(()),
+                ClientSays::Command(command) => {
+                    permit(self.role, &self.actors, &command).and_then(|()| self.pass(Order::Command(command)))
+                }
+                ClientSays::Press(key) => self.may_press(&key).and_then(|()| self.pass(Order::Press(key))),
+            };
+            if let Err(problem) = passed {
+                count(&self.house.shared.counts.orders_refused);
+                // One that does not read what it is told is not told more.
+                let _ = note.try_send(problem);
+            }
+        }
+        Ok(())
+    }
+
+    /// Signs of life and what actors perform. What is too much is dropped: the next one is newer.
+    async fn hear_datagrams(&self) -> Result<(), SessionError> {
+        let mut pace = Pace::new(DATAGRAMS_PER_SEC, Instant::now());
+        loop {
+            let bytes =
+                self.connection.read_datagram().await.map_err(|error| SessionError::Ended(error.to_string()))?;
+            if pace.take(Instant::now()).is_err() {
+                count(&self.house.shared.counts.orders_dropped);
+                continue;
+            }
+            self.is_heard()?;
+            let upward = Upward::read(&bytes).map_err(|error| SessionError::Malformed(error.to_string()))?;
+            if let Some(command) = upward.command(&self.actors) {
+                // Too many at once: the next one is newer.
+                let _ = self.pass(Order::Command(command));
+            }
+        }
+    }
+
+    fn is_heard(&self) -> Result<(), SessionError> {
+        if self.house.seats().hear(self.number, &self.actors, Instant::now()) {
+            Ok(())
+        } else {
+            Err(SessionError::Ended("the actor has joined anew".to_owned()))
+        }
+    }
+
+    fn may_press(&self, key: &str) -> Result<(), String> {
+        let bound = self.house.bill.keys.get(key).ok_or_else(|| {
+            let known: Vec<&str> = self.house.bill.keys.keys().map(String::as_str).collect();
+            format!("the scene has no key `{}`; there are {}", short(key), known.join(", "))
+        })?;
+        bound.iter().try_for_each(|command| permit(self.role, &self.actors, command))
+    }
+
+    /// Hands an order to the stage, which takes it before its next step.
+    fn pass(&self, order: Order) -> Result<(), String> {
+        let shared = &self.house.shared;
+        let arrived_step = shared.step.load(Ordering::Relaxed);
+        match self.house.order.try_send(Placed { order, by: Arc::clone(&self.by), arrived_step }) {
+            Ok(()) => {
+                count(&shared.counts.orders);
+                Ok(())
+            }
+            Err(_) => {
+                count(&shared.counts.orders_dropped);
+                Err("the stage has too much to do; send it again".to_owned())
+            }
+        }
+    }
+
+    /// Frames, the newest first. Each has a stream of its own, so that a lost packet holds up one frame and no other; a frame
+    /// that is still under way when it is stale is given up.
+    async fn show(&self) -> Result<(), SessionError> {
+        let counts = &self.house.shared.counts;
+        let mut frames = self.house.frames.clone();
+        frames.mark_changed();
+        let mut under_way: VecDeque<(Instant, SendStream)> = VecDeque::new();
+        let mut newest = 0;
+        loop {
+            let over = |_| SessionError::Ended("the session is over".to_owned());
+            frames.changed().await.map_err(over)?;
+            let frame = Arc::clone(&frames.borrow_and_update());
+            if frame.is_empty() {
+                continue;
+            }
+            while under_way.front().is_some_and(|(since, _)| since.elapsed() > STALE)
+                || under_way.len() >= MOST_FRAMES_UNDER_WAY as usize
+            {
+                // Of one that has arrived nothing is left to give up.
+                if let Some((_, mut old)) = under_way.pop_front() {
+                    let _ = old.reset(0u32.into());
+                }
+            }
+            let write = async {
+                let mut stream =
+                    self.connection.open_uni().await.map_err(|error| SessionError::Ended(error.to_string()))?;
+                let _ = stream.set_priority(newest);
+                let written = timeout(STALE / 4, stream.write_all(&frame)).await;
+                Ok::<_, SessionError>((written, stream))
+            };
+            match timeout(STALE, write).await {
+                Ok(Ok((Ok(Ok(())), mut stream))) => {
+                    let _ = stream.finish();
+                    under_way.push_back((Instant::now(), stream));
+                    count(&counts.frames_sent);
+                }
+                Ok(Ok((Ok(Err(quinn::WriteError::ConnectionLost(error))), _))) => {
+                    return Err(SessionError::Ended(error.to_string()));
+                }
+                // It takes no more now, or not this one.
+                Ok(Ok((_, mut stream))) => {
+                    let _ = stream.reset(0u32.into());
+                    count(&counts.frames_dropped);
+                }
+                Ok(Err(error)) => return Err(error),
+                Err(_) => count(&counts.frames_dropped),
+            }
+            newest = newest.saturating_add(1);
+        }
+    }
+}
+
+/// Passes words on to the client.
+async fn tell(mut to: SendStream, mut notes: mpsc::Receiver<String>) -> Result<(), SessionError> {
+    while let Some(problem) = notes.recv().await {
+        say(&mut to, &ServerSays::NotPassed(problem)).await?;
+    }
+    // The other tasks end the stay.
+    std::future::pending().await
+}

@@ -1,0 +1,188 @@
+//! A stage and its desk: what happens around each step of a session.
+
+use super::desk::{Desk, Order, Placed};
+use super::limits::MOST_SCENE;
+use super::server::Playbill;
+use super::{SessionError, note_hash};
+use sinew_control::Command;
+use sinew_stage::take::{Take, TakeFile};
+use sinew_stage::{Scene, Stage};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+impl Playbill {
+    /// What has to be told of a scene.
+    ///
+    /// # Errors
+    /// A scene whose files are too large to be sent.
+    pub fn of(scene: &Scene) -> Result<Playbill, SessionError> {
+        let mut take = Take::of(scene);
+        // A take may leave large files to the disk; here there is none on the other side.
+        for (path, held) in scene.files() {
+            take.files.insert(path.clone(), TakeFile { hash: held.hash, bytes: Some(Arc::clone(&held.bytes)) });
+        }
+        let bytes = take.to_bytes().map_err(|error| SessionError::Machine(error.to_string()))?;
+        if bytes.len() > MOST_SCENE {
+            let problem =
+                format!("the scene and its files have {} bytes, of {MOST_SCENE} that can be sent", bytes.len());
+            return Err(SessionError::Machine(format!("{problem}; use shorter clips")));
+        }
+        let mut keys: BTreeMap<String, Vec<Command>> = BTreeMap::new();
+        for binding in &scene.keys {
+            keys.entry(binding.key.clone()).or_default().push(binding.command.clone());
+        }
+        Ok(Playbill {
+            scene: bytes.into(),
+            actors: scene.characters.keys().cloned().collect(),
+            keys,
+            physics_hz: scene.stage.physics_hz,
+            seed: scene.stage.seed,
+        })
+    }
+}
+
+/// Runs the steps of a stage that has a desk.
+///
+/// ```
+/// use sinew_live::session::{Playbill, Server, ServerSettings, Theatre};
+/// use sinew_stage::{Scene, Stage};
+/// let scene = Scene::from_text("format = 1\n[characters.red]\n")?;
+/// let settings = ServerSettings { bind: "127.0.0.1:0".parse()?, ..ServerSettings::default() };
+/// let (_server, desk) = Server::open(&settings, Playbill::of(&scene)?)?;
+/// let mut stage = Stage::new(scene, None)?;
+/// let mut theatre = Theatre::new(desk, &stage);
+/// for _ in 0..8 {
+///     theatre.before_step(&mut stage);
+///     stage.step();
+///     theatre.after_step(&stage);
+/// }
+/// assert_eq!(stage.frame().step, 8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Theatre {
+    desk: Desk,
+    steps_per_frame: u64,
+    has_obeyed: bool,
+    hashes: BTreeMap<u64, String>,
+    obeyed: Vec<Obeyed>,
+}
+
+/// A command or key that was obeyed, for the report.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Obeyed {
+    /// A key, or the command's word.
+    pub what: String,
+    /// Whose client sent it.
+    pub by: String,
+    /// Physics steps that were done when it arrived.
+    pub arrived_step: u64,
+    /// Physics steps that were done before the one that obeyed it; it stands in the take so.
+    pub step: u64,
+}
+
+/// Obeyed commands that are kept; of more the last.
+const MOST_OBEYED: usize = 1_000;
+
+impl Theatre {
+    /// A desk for a stage.
+    pub fn new(desk: Desk, stage: &Stage) -> Theatre {
+        let steps_per_frame = u64::from(stage.scene().stage.steps_per_frame()).max(1);
+        let mut theatre =
+            Theatre { desk, steps_per_frame, has_obeyed: false, hashes: BTreeMap::new(), obeyed: Vec::new() };
+        theatre.after_step(stage);
+        theatre
+    }
+
+    /// Hands the stage what has arrived.
+    pub fn before_step(&mut self, stage: &mut Stage) {
+        self.has_obeyed = false;
+        let step = stage.frame().step;
+        for Placed { order, by, arrived_step } in self.desk.orders_of_step() {
+            let what = match order {
+                Order::Press(key) => {
+                    stage.press(&key);
+                    key
+                }
+                Order::Command(command) => {
+                    let is_sample = false;
+                    let what = (!is_sample).then(|| word(&command));
+                    stage.command(command);
+                    let Some(what) = what else { continue };
+                    what
+                }
+            };
+            self.has_obeyed = true;
+            if self.obeyed.len() >= MOST_OBEYED {
+                self.obeyed.remove(0);
+            }
+            self.obeyed.push(Obeyed { what, by: by.to_string(), arrived_step, step });
+        }
+    }
+
+    /// Shows what has come of it: at the motion rate, and at once when somebody was obeyed, so that a pull is seen without
+    /// waiting for the next frame.
+    pub fn after_step(&mut self, stage: &Stage) {
+        let frame = stage.frame();
+        self.desk.done(frame.step);
+        note_hash(&mut self.hashes, frame.step, frame.hash());
+        if self.has_obeyed || frame.step.is_multiple_of(self.steps_per_frame) {
+            self.desk.publish(frame);
+        }
+    }
+
+    /// Whether somebody asked for the end.
+    pub fn should_stop(&self) -> bool {
+        self.desk.should_stop()
+    }
+
+    /// [`Frame::hash`](sinew_world::Frame::hash) by step, as [`Tally::hashes`](super::Tally::hashes) of a client has them.
+    pub fn hashes(&self) -> &BTreeMap<u64, String> {
+        &self.hashes
+    }
+
+    /// Commands and keys of clients that were obeyed, performance left out: the last thousand.
+    pub fn obeyed(&self) -> &[Obeyed] {
+        &self.obeyed
+    }
+}
+
+/// What a command is called in scenes.
+fn word(command: &Command) -> String {
+    let action = serde_json::to_value(&command.action).unwrap_or_default();
+    action.get("do").and_then(|word| word.as_str()).unwrap_or_default().to_owned()
+}
+
+/// Keeps a stage at the pace of the clock. Steps are due at fixed times from the beginning, so that waiting a little too long
+/// once delays nothing after it; when the machine falls far behind, the time lost is given up.
+#[derive(Clone, Debug)]
+pub struct Pacer {
+    began: Instant,
+    step: Duration,
+    /// Steps before `began`.
+    from_step: u64,
+    /// Times that time was given up.
+    pub lapses: u64,
+}
+
+/// How far behind the clock a stage tries to catch up.
+const MOST_BEHIND: Duration = Duration::from_millis(250);
+
+impl Pacer {
+    /// The step after `step` begins now.
+    pub fn new(step: u64, step_secs: f64) -> Pacer {
+        Pacer { began: Instant::now(), step: Duration::from_secs_f64(step_secs), from_step: step, lapses: 0 }
+    }
+
+    /// Waits until the step after `step` is due.
+    pub fn wait(&mut self, step: u64) {
+        let due = self.began + self.step.mul_f64(step.saturating_sub(self.from_step) as f64);
+        let now = Instant::now();
+        if let Some(wait) = due.checked_duration_since(now) {
+            std::thread::sleep(wait);
+        } else if now - due > MOST_BEHIND {
+            self.lapses += 1;
+            (self.began, self.from_step) = (now, step);
+        }
+    }
+}

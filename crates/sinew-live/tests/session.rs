@@ -1,0 +1,254 @@
+//! Several clients, one stage: over loopback, and over a relay that is bad network.
+#![cfg(feature = "session")]
+
+use sinew_control::{Action, Command};
+use sinew_live::session::{
+    Client, Pacer, Playbill, Refusal, Relay, Role, Server, ServerCounts, ServerSettings, SessionError, Standing,
+    Theatre, Token, Weather,
+};
+use sinew_stage::{Scene, Stage, Take};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// Two who hold one rope, and a ball on the floor.
+const SCENE: &str = r#"
+format = 1
+[characters.red]
+position_m = [0, 0, 0]
+[characters.blue]
+position_m = [0, 0, 1.2]
+facing_deg = 180
+[props.ball]
+ball_radius_m = 0.1
+mass_kg = 1
+position_m = [1, 0.5, 0]
+[[at]]
+character = "red"
+do = "attach"
+link = "rightHand"
+object = "blue.leftHand"
+soft = true
+[[keys]]
+key = "p"
+character = "red"
+do = "push"
+on = "rightHand"
+force_n = [0, 0, -150]
+for_secs = 0.2
+[[keys]]
+key = "b"
+do = "place"
+object = "ball"
+velocity_m_s = [0, 2, 0]
+"#;
+
+/// A session with its stage on a thread of its own.
+struct House {
+    server: Server,
+    ended: Arc<AtomicBool>,
+    stage: Option<JoinHandle<Done>>,
+}
+
+/// What the stage has done.
+struct Done {
+    take: Take,
+    hashes: BTreeMap<u64, String>,
+    obeyed: Vec<sinew_live::session::Obeyed>,
+}
+
+impl House {
+    fn open() -> House {
+        let scene = Scene::from_text(SCENE).unwrap();
+        let settings = ServerSettings { bind: "127.0.0.1:0".parse().unwrap(), ..ServerSettings::default() };
+        let (server, desk) = Server::open(&settings, Playbill::of(&scene).unwrap()).unwrap();
+        let ended = Arc::new(AtomicBool::new(false));
+        let until = Arc::clone(&ended);
+        let mut take = Take::of(&scene);
+        let stage = std::thread::spawn(move || {
+            let mut stage = Stage::new(scene, None).unwrap();
+            let mut theatre = Theatre::new(desk, &stage);
+            let mut pacer = Pacer::new(0, stage.world().settings().step_secs());
+            while !until.load(Ordering::Relaxed) {
+                pacer.wait(stage.frame().step);
+                theatre.before_step(&mut stage);
+                stage.step();
+                theatre.after_step(&stage);
+            }
+            take.commands = stage.record().to_vec();
+            (take.steps, take.hash) = (stage.frame().step, stage.hash());
+            Done { take, hashes: theatre.hashes().clone(), obeyed: theatre.obeyed().to_vec() }
+        });
+        House { server, ended, stage: Some(stage) }
+    }
+
+    fn token(&self, role: Role) -> Token {
+        self.server.token(role).clone()
+    }
+
+    fn counts(&self) -> ServerCounts {
+        self.server.counts()
+    }
+
+    fn close(mut self) -> Done {
+        self.ended.store(true, Ordering::Relaxed);
+        self.stage.take().unwrap().join().unwrap()
+    }
+}
+
+impl Drop for House {
+    fn drop(&mut self) {
+        self.ended.store(true, Ordering::Relaxed);
+    }
+}
+
+fn join(token: &Token, actors: &[&str]) -> Result<Client, SessionError> {
+    let actors: Vec<String> = actors.iter().map(|&actor| actor.to_owned()).collect();
+    Client::join(token, &actors)
+}
+
+/// Looks until a client has frames up to a step, or so long that it never will.
+fn watch_until(client: &Client, step: u64) {
+    for _ in 0..600 {
+        if client.next_frame(Duration::from_millis(100)).is_some_and(|frame| frame.step >= step) {
+            return;
+        }
+    }
+    panic!("no frame of step {step}: {:?}, {:?}", client.tally(), client.standing());
+}
+
+/// Waits for something that must come.
+fn until(what: &str, mut is_so: impl FnMut() -> bool) {
+    for _ in 0..3000 {
+        if is_so() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what} never came");
+}
+
+/// The hashes of one step are the same for all who have it, and there are such steps.
+fn agree(one: &BTreeMap<u64, String>, other: &BTreeMap<u64, String>) {
+    let both: Vec<u64> = one.keys().copied().filter(|step| other.contains_key(step)).collect();
+    assert!(!both.is_empty(), "no step in common: {:?} and {:?}", one.keys(), other.keys());
+    for step in both {
+        assert_eq!(one[&step], other[&step], "step {step}");
+    }
+}
+
+#[test]
+fn late_joiners_have_everybodys_hashes_at_the_same_steps() {
+    let house = House::open();
+    let red = join(&house.token(Role::Actor), &["red"]).unwrap();
+    watch_until(&red, 100);
+    let blue = join(&house.token(Role::Actor), &["blue"]).unwrap();
+    assert!(blue.welcome().step >= 90 && blue.welcome().seed == 1);
+    assert_eq!(blue.scene().characters.len(), 2);
+    assert!(red.press("p"));
+    watch_until(&red, 300);
+    watch_until(&blue, 300);
+    let (red, blue) = (red.tally(), blue.tally());
+    let done = house.close();
+    for tally in [&red, &blue] {
+        assert_eq!((tally.frames_that_differ, tally.frames_malformed), (0, 0));
+        agree(&tally.hashes, &done.hashes);
+    }
+    agree(&red.hashes, &blue.hashes);
+    assert_eq!(done.obeyed.len(), 1);
+}
+
+#[test]
+fn a_command_is_obeyed_in_the_step_after_it_arrives_and_the_take_replays_it() {
+    let house = House::open();
+    let red = join(&house.token(Role::Actor), &["red"]).unwrap();
+    watch_until(&red, 60);
+    red.press("p");
+    red.command(Command::to("red", Action::Gain { factor: 0.5, part: None }));
+    watch_until(&red, 240);
+    let done = house.close();
+    assert_eq!(done.take.commands.len(), 2);
+    for obeyed in &done.obeyed {
+        // Taken before the step that begins next: between the two looks of a thread at the count one step may have begun.
+        assert!(obeyed.step - obeyed.arrived_step <= 1, "{obeyed:?}");
+    }
+    let take = Take::read(&done.take.to_bytes().unwrap()).unwrap();
+    let mut again = Stage::new(take.to_scene(None).unwrap(), None).unwrap();
+    again.prescribe(take.commands.clone());
+    for _ in 0..take.steps {
+        again.step();
+    }
+    assert_eq!(again.hash(), take.hash);
+}
+
+#[test]
+fn an_actor_commands_itself_and_nobody_else_and_the_operator_all() {
+    let house = House::open();
+    let red = join(&house.token(Role::Actor), &["red"]).unwrap();
+    red.command(Command::to("blue", Action::Gain { factor: 0.0, part: None }));
+    red.press("b");
+    red.press("no such key");
+    until("the refusals", || red.tally().not_passed.len() == 3);
+    let operator = join(&house.token(Role::Operator), &[]).unwrap();
+    operator.press("b");
+    operator.command(Command::to("blue", Action::Gain { factor: 0.9, part: None }));
+    operator.command(Command::stage(Action::Reload { name: "x".into(), text: Some("import os".into()) }));
+    until("the operator's refusal", || operator.tally().not_passed.len() == 1);
+    until("the orders", || house.counts().orders == 2);
+    assert_eq!(house.counts().orders_refused, 4);
+    let done = house.close();
+    let by: Vec<&str> = done.obeyed.iter().map(|obeyed| obeyed.by.as_str()).collect();
+    assert_eq!(by, ["operator", "operator"]);
+}
+
+#[test]
+fn without_the_tokens_secret_or_the_servers_certificate_nobody_joins() {
+    let house = House::open();
+    let token = house.token(Role::Actor);
+    let guessed = Token { secret: [0; 32], ..token.clone() };
+    assert_eq!(join(&guessed, &[]).err(), Some(SessionError::Refused(Refusal::Secret)));
+    let elsewhere = Token { fingerprint: [0; 32], ..token.clone() };
+    assert!(matches!(join(&elsewhere, &[]).err(), Some(SessionError::Impostor { .. })));
+    let Err(SessionError::Refused(Refusal::NoActor { known, .. })) = join(&token, &["green"]) else { panic!() };
+    assert_eq!(known, "blue, red");
+    let first = join(&token, &["red"]).unwrap();
+    assert!(matches!(join(&token, &["red"]).err(), Some(SessionError::Refused(Refusal::Taken { .. }))));
+    drop(first);
+    assert!(join(&token, &["red"]).is_ok(), "who leaves makes room");
+}
+
+#[test]
+fn over_a_bad_network_hashes_agree_and_a_lost_client_comes_back_as_itself() {
+    let house = House::open();
+    let weather = Weather { delay: Duration::from_millis(40), jitter: Duration::from_millis(15), loss: 0.05, seed: 3 };
+    let relay =
+        |seed| Relay::start("127.0.0.1:0".parse().unwrap(), house.server.address(), Weather { seed, ..weather });
+    let (red_way, blue_way) = (relay(3).unwrap(), relay(4).unwrap());
+    let via = |relay: &Relay| Token { port: relay.address().port(), ..house.token(Role::Actor) };
+    let red = join(&via(&red_way), &["red"]).unwrap();
+    let blue = join(&via(&blue_way), &["blue"]).unwrap();
+    watch_until(&red, 120);
+    // Blue is cut off for longer than a connection lives: like a host that is switched off, and back.
+    blue_way.cut(true);
+    until("the loss", || blue.standing() == Standing::Rejoining);
+    let lost = blue.tally().last_step.unwrap();
+    assert!(red.standing() == Standing::Connected, "red goes on");
+    blue_way.cut(false);
+    until("blue's return", || blue.standing() == Standing::Connected && blue.tally().last_step.unwrap() > lost);
+    red.press("p");
+    let now = red.tally().last_step.unwrap();
+    watch_until(&red, now + 240);
+    watch_until(&blue, now + 240);
+    let (red, blue) = (red.tally(), blue.tally());
+    let done = house.close();
+    assert_eq!(blue.rejoined, 1);
+    for tally in [&red, &blue] {
+        assert_eq!((tally.frames_that_differ, tally.frames_malformed), (0, 0));
+        // Two ways of 40 ms, and no less.
+        assert!(tally.round_trip_ms >= 80.0, "{}", tally.round_trip_ms);
+        agree(&tally.hashes, &done.hashes);
+    }
+    assert_eq!(done.obeyed.len(), 1);
+}
