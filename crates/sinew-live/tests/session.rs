@@ -1,5 +1,6 @@
 //! Several clients, one stage: over loopback, and over a relay that is bad network.
 #![cfg(feature = "session")]
+#![allow(clippy::unwrap_used, reason = "a helper of a test fails as the test does")]
 
 use sinew_control::{Action, Command};
 use sinew_live::session::{
@@ -26,6 +27,7 @@ ball_radius_m = 0.1
 mass_kg = 1
 position_m = [1, 0.5, 0]
 [[at]]
+time_secs = 0
 character = "red"
 do = "attach"
 link = "rightHand"

@@ -117,6 +117,18 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
     Ok(())
 }
 
+/// The bodies of a scene's characters.
+pub(crate) fn bodies(scene: &Scene) -> Result<Vec<Body>, StageError> {
+    let body = |(name, spec): (&String, &CharacterSpec)| {
+        cut(scene, spec).map(|cut| cut.body).map_err(|problem| StageError {
+            file: scene.file_name().to_owned(),
+            place: format!("characters.{name}"),
+            problem,
+        })
+    };
+    scene.characters.iter().map(body).collect()
+}
+
 /// A character's body, and its clip if it plays one.
 fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
     let source = spec.source.as_ref();

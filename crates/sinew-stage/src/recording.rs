@@ -1,9 +1,9 @@
 //! What was seen, frame by frame, for files and pictures.
 
-use crate::Stage;
+use crate::{Scene, Stage, StageError};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
-use sinew_world::{PartShape, Solid};
+use sinew_world::{Frame, PartShape, Solid};
 
 /// A run at the motion rate.
 #[derive(Clone, Debug, Default)]
@@ -51,11 +51,26 @@ pub struct RecordedProp {
 impl Recording {
     /// An empty recording of a stage.
     pub fn new(stage: &Stage) -> Recording {
-        let scene = stage.scene();
         let world = stage.world();
-        let characters = scene.characters.iter().enumerate().filter_map(|(index, (name, spec))| {
-            let body = world.body(index)?.clone();
-            Some(RecordedCharacter { name: name.clone(), body, rgb: spec.rgb(), poses: Vec::new(), shapes: Vec::new() })
+        let bodies = (0..stage.scene().characters.len()).filter_map(|index| world.body(index).cloned());
+        Recording::of_bodies(stage.scene(), bodies)
+    }
+
+    /// An empty recording of a scene whose stage runs elsewhere; [`Recording::push_frame`] fills it.
+    ///
+    /// # Errors
+    /// When a clip of the scene cannot be read.
+    pub fn of_scene(scene: &Scene) -> Result<Recording, StageError> {
+        Ok(Recording::of_bodies(scene, crate::build::bodies(scene)?.into_iter()))
+    }
+
+    fn of_bodies(scene: &Scene, bodies: impl Iterator<Item = Body>) -> Recording {
+        let characters = scene.characters.iter().zip(bodies).map(|((name, spec), body)| RecordedCharacter {
+            name: name.clone(),
+            body,
+            rgb: spec.rgb(),
+            poses: Vec::new(),
+            shapes: Vec::new(),
         });
         let props = scene.props.iter().filter_map(|(name, spec)| {
             let solid = spec.solid()?;
@@ -77,10 +92,6 @@ impl Recording {
 
     /// Takes down what the stage shows now.
     pub fn push(&mut self, stage: &Stage) {
-        let frame = stage.world().frame();
-        for (character, seen) in self.characters.iter_mut().zip(&frame.characters) {
-            character.poses.push(seen.pose());
-        }
         for (index, character) in self.characters.iter_mut().enumerate() {
             for node in Node::ALL {
                 let shape = stage.shape_in_place_of_own(index, node).unwrap_or(&PartShape::Own);
@@ -88,6 +99,14 @@ impl Recording {
                     character.shapes.push((self.frames, node, shape.clone()));
                 }
             }
+        }
+        self.push_frame(stage.world().frame());
+    }
+
+    /// Takes down a frame; parts have the shapes that they had in the frame before.
+    pub fn push_frame(&mut self, frame: &Frame) {
+        for (character, seen) in self.characters.iter_mut().zip(&frame.characters) {
+            character.poses.push(seen.pose());
         }
         for (prop, seen) in self.props.iter_mut().zip(&frame.props) {
             prop.places.push((seen.position, seen.rotation));

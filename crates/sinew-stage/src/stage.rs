@@ -31,6 +31,7 @@ pub struct Stage {
     pub(crate) host: Option<ScriptHost>,
     /// Commands that came from outside, with the steps in which they were obeyed.
     pub(crate) record: Vec<Stamped>,
+    pub(crate) records: bool,
     /// Kills of scripts that a take prescribes; `None` when scripts are held to time themselves.
     pub(crate) prescribed: Option<Vec<Stamped>>,
     reactions: Reactions,
@@ -83,6 +84,7 @@ impl Stage {
             events: Events::default(),
             host,
             record: Vec::new(),
+            records: true,
             prescribed: None,
             reactions,
             inbox: Vec::new(),
@@ -133,7 +135,9 @@ impl Stage {
             // What is refused here is not recorded: a take holds only what it can give again.
             match self.scene.check_command(&command) {
                 Ok(()) => {
-                    self.record.push(Stamped { step, command: command.clone() });
+                    if self.records {
+                        self.record.push(Stamped { step, command: command.clone() });
+                    }
                     self.obey(&command, "command");
                 }
                 Err(problem) => self.note("command", format!("refused: {problem}")),
@@ -164,6 +168,12 @@ impl Stage {
     /// The number changes no bit of what comes out.
     pub fn set_threads(&mut self, threads: usize) -> usize {
         self.world.set_threads(threads)
+    }
+
+    /// Whether commands from outside are kept for a take, as they are at first. A stage that runs for days without a take would
+    /// keep them for nothing.
+    pub fn keep_record(&mut self, on: bool) {
+        self.records = on;
     }
 
     /// The world, to look at.

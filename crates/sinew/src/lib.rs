@@ -14,6 +14,7 @@
 //! | [`picture`] | filmstrips and plots |
 //! | [`respond`] | the whole job of `sinew respond`: a file in, an answered file out |
 //! | [`run`] | the whole job of `sinew run`: a scene in, motion, picture and report out |
+//! | `session` | `sinew serve` and `sinew join`: one stage, actors on several machines (feature `session`) |
 //! | [`sample`] | a walk that Sinew makes itself |
 //! | [`inspect`] | what a motion file is and what Sinew makes of it |
 
@@ -31,6 +32,8 @@ pub mod inspect;
 pub mod respond;
 pub mod run;
 pub mod sample;
+#[cfg(feature = "session")]
+pub mod session;
 
 /// The README's Rust examples compile.
 #[cfg(doctest)]

@@ -71,7 +71,8 @@ pub(super) fn client_side(fingerprint: [u8; 32]) -> Result<quinn::ClientConfig, 
         .max_concurrent_uni_streams(VarInt::from_u32(MOST_FRAMES_UNDER_WAY))
         .receive_window(VarInt::from_u32(8 << 20))
         .datagram_send_buffer_size(64 << 10)
-        .datagram_receive_buffer_size(None);
+        // Without a buffer of its own it may not send any.
+        .datagram_receive_buffer_size(Some(16 << 10));
     config.transport_config(Arc::new(transport));
     Ok(config)
 }

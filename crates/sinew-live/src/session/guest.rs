@@ -12,8 +12,8 @@ use super::{Refusal, Role, SessionError, permit};
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use quinn::{Connection, RecvStream, SendStream};
-use std::collections::VecDeque;
-use std::sync::atomic::Ordering;
+use sinew_control::Command;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::SyncSender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -89,7 +89,7 @@ async fn greet(
     number: u64,
     connection: &Connection,
 ) -> Result<(Option<Guest>, SendStream, RecvStream), SessionError> {
-    let (mut to, mut from) = connection.accept_bi().await.map_err(|error| SessionError::Ended(error.to_string()))?;
+    let (mut to, mut from) = connection.accept_bi().await.map_err(ended)?;
     let bytes = hear(&mut from, MOST_HELLO).await?;
     match house.admit(number, &bytes.unwrap_or_default(), connection) {
         Ok((role, actors)) => {
@@ -157,7 +157,7 @@ impl Guest {
         let (note, notes) = mpsc::channel(16);
         let begin = async {
             say(&mut to, &ServerSays::Welcome(welcome)).await?;
-            to.write_all(&bill.scene).await.map_err(|error| SessionError::Ended(error.to_string()))?;
+            to.write_all(&bill.scene).await.map_err(ended)?;
             Ok(to)
         };
         let speak = async {
@@ -184,7 +184,8 @@ impl Guest {
             let passed = match ClientSays::read(&bytes).map_err(SessionError::Malformed)? {
                 ClientSays::Leave => return Ok(()),
                 ClientSays::Command(command) => {
-                    permit(self.role, &self.actors, &command).and_then(|()| self.pass(Order::Command(command)))
+                    let suits = permit(self.role, &self.actors, &command).and_then(|()| self.suits(&command));
+                    suits.and_then(|()| self.pass(Order::Command(command)))
                 }
                 ClientSays::Press(key) => self.may_press(&key).and_then(|()| self.pass(Order::Press(key))),
             };
@@ -201,8 +202,7 @@ impl Guest {
     async fn hear_datagrams(&self) -> Result<(), SessionError> {
         let mut pace = Pace::new(DATAGRAMS_PER_SEC, Instant::now());
         loop {
-            let bytes =
-                self.connection.read_datagram().await.map_err(|error| SessionError::Ended(error.to_string()))?;
+            let bytes = self.connection.read_datagram().await.map_err(ended)?;
             if pace.take(Instant::now()).is_err() {
                 count(&self.house.shared.counts.orders_dropped);
                 continue;
@@ -222,6 +222,11 @@ impl Guest {
         } else {
             Err(SessionError::Ended("the actor has joined anew".to_owned()))
         }
+    }
+
+    /// Whether a command names what the scene has, with numbers that are sound.
+    fn suits(&self, command: &Command) -> Result<(), String> {
+        self.house.bill.rules.as_ref().map_or(Ok(()), |scene| scene.check_command(command))
     }
 
     fn may_press(&self, key: &str) -> Result<(), String> {
@@ -248,14 +253,13 @@ impl Guest {
         }
     }
 
-    /// Frames, the newest first. Each has a stream of its own, so that a lost packet holds up one frame and no other; a frame
-    /// that is still under way when it is stale is given up.
+    /// Frames. Each has a stream of its own, so that a lost packet holds up one frame and no other. As many are under way as the
+    /// connection can carry at a time; a frame for which there is no room is left out, and the next one is newer.
     async fn show(&self) -> Result<(), SessionError> {
-        let counts = &self.house.shared.counts;
+        let shared = &self.house.shared;
         let mut frames = self.house.frames.clone();
         frames.mark_changed();
-        let mut under_way: VecDeque<(Instant, SendStream)> = VecDeque::new();
-        let mut newest = 0;
+        let under_way = Arc::new(AtomicU64::new(0));
         loop {
             let over = |_| SessionError::Ended("the session is over".to_owned());
             frames.changed().await.map_err(over)?;
@@ -263,41 +267,45 @@ impl Guest {
             if frame.is_empty() {
                 continue;
             }
-            while under_way.front().is_some_and(|(since, _)| since.elapsed() > STALE)
-                || under_way.len() >= MOST_FRAMES_UNDER_WAY as usize
-            {
-                // Of one that has arrived nothing is left to give up.
-                if let Some((_, mut old)) = under_way.pop_front() {
-                    let _ = old.reset(0u32.into());
-                }
+            let (bytes, room) = (frame.len() as u64, self.connection.stats().path.cwnd);
+            let waiting = under_way.load(Ordering::Relaxed);
+            if waiting > 0 && waiting + bytes > room {
+                count(&shared.counts.frames_dropped);
+                continue;
             }
-            let write = async {
-                let mut stream =
-                    self.connection.open_uni().await.map_err(|error| SessionError::Ended(error.to_string()))?;
-                let _ = stream.set_priority(newest);
-                let written = timeout(STALE / 4, stream.write_all(&frame)).await;
-                Ok::<_, SessionError>((written, stream))
+            // A client that takes nothing is waited for here, and holds up nobody else.
+            let Ok(opened) = timeout(STALE, self.connection.open_uni()).await else {
+                count(&shared.counts.frames_dropped);
+                continue;
             };
-            match timeout(STALE, write).await {
-                Ok(Ok((Ok(Ok(())), mut stream))) => {
-                    let _ = stream.finish();
-                    under_way.push_back((Instant::now(), stream));
-                    count(&counts.frames_sent);
-                }
-                Ok(Ok((Ok(Err(quinn::WriteError::ConnectionLost(error))), _))) => {
-                    return Err(SessionError::Ended(error.to_string()));
-                }
-                // It takes no more now, or not this one.
-                Ok(Ok((_, mut stream))) => {
+            let mut stream = opened.map_err(ended)?;
+            match timeout(STALE, stream.write_all(&frame)).await {
+                Ok(written) => written.map_err(ended)?,
+                Err(_) => {
+                    // Dropped as it is it would pass for a whole one.
                     let _ = stream.reset(0u32.into());
-                    count(&counts.frames_dropped);
+                    count(&shared.counts.frames_dropped);
+                    continue;
                 }
-                Ok(Err(error)) => return Err(error),
-                Err(_) => count(&counts.frames_dropped),
             }
-            newest = newest.saturating_add(1);
+            let _ = stream.finish();
+            under_way.fetch_add(bytes, Ordering::Relaxed);
+            let (under_way, shared) = (Arc::clone(&under_way), Arc::clone(shared));
+            tokio::spawn(async move {
+                if timeout(STALE, stream.stopped()).await.is_ok() {
+                    count(&shared.counts.frames_sent);
+                } else {
+                    let _ = stream.reset(0u32.into());
+                    count(&shared.counts.frames_dropped);
+                }
+                under_way.fetch_sub(bytes, Ordering::Relaxed);
+            });
         }
     }
+}
+
+fn ended(error: impl std::fmt::Display) -> SessionError {
+    SessionError::Ended(error.to_string())
 }
 
 /// Passes words on to the client.

@@ -47,7 +47,7 @@ pub const MOST_ORDERS: usize = 1 << 10;
 /// Commands of all clients that one step obeys; the rest waits for the next.
 pub const MOST_ORDERS_OF_STEP: usize = 256;
 
-/// Frames under way to one client; the oldest is given up for a newer one.
+/// Frames under way to one client.
 pub const MOST_FRAMES_UNDER_WAY: u32 = 128;
 
 /// A frame older than this is given up.

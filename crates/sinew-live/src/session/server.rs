@@ -8,6 +8,7 @@ use super::seats::Seats;
 use super::{Role, SessionError, Token};
 use ring::rand::{SecureRandom, SystemRandom};
 use sinew_control::Command;
+use sinew_stage::Scene;
 use std::collections::BTreeMap;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::sync::atomic::Ordering;
@@ -48,6 +49,8 @@ pub struct Playbill {
     pub physics_hz: u32,
     /// Its seed.
     pub seed: u64,
+    /// The scene, to which commands are held before they are passed on.
+    pub rules: Option<Arc<Scene>>,
 }
 
 /// A session that others can join. It ends when it is dropped.
@@ -143,7 +146,8 @@ impl Drop for Server {
         self.endpoint.close(guest::CLOSED.into(), b"the session is over");
         if let Some(runtime) = self.runtime.take() {
             // Everybody is told, and nobody is waited for long.
-            let _ = runtime.block_on(tokio::time::timeout(super::limits::SIGN_OF_LIFE, self.endpoint.wait_idle()));
+            let told = async { tokio::time::timeout(super::limits::SIGN_OF_LIFE, self.endpoint.wait_idle()).await };
+            let _ = runtime.block_on(told);
             runtime.shutdown_background();
         }
     }

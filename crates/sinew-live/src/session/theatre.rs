@@ -38,6 +38,7 @@ impl Playbill {
             keys,
             physics_hz: scene.stage.physics_hz,
             seed: scene.stage.seed,
+            rules: Some(Arc::new(scene.clone())),
         })
     }
 }

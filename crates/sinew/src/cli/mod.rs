@@ -2,10 +2,14 @@
 
 mod convert;
 mod inspect;
+#[cfg(feature = "session")]
+mod join;
 mod output;
 mod push_argument;
 mod respond;
 mod run;
+#[cfg(feature = "session")]
+mod serve;
 mod session;
 
 use clap::{Parser, Subcommand};
@@ -35,6 +39,12 @@ enum Command {
     Run(run::Run),
     /// Play a take again, bit for bit, or with other values.
     Replay(run::Replay),
+    /// Run a scene for actors on several machines.
+    #[cfg(feature = "session")]
+    Serve(serve::Serve),
+    /// Join a scene that `sinew serve` runs: as an actor, as its operator, or to watch.
+    #[cfg(feature = "session")]
+    Join(join::Join),
     /// Run a scene's Python in a process of its own; `sinew` starts it itself.
     #[cfg(feature = "python")]
     #[command(hide = true)]
@@ -83,6 +93,10 @@ pub(crate) fn run() -> ExitCode {
         Command::Respond(command) => command.run(),
         Command::Run(command) => command.run(),
         Command::Replay(command) => command.run(),
+        #[cfg(feature = "session")]
+        Command::Serve(command) => command.run(),
+        #[cfg(feature = "session")]
+        Command::Join(command) => command.run(),
         #[cfg(feature = "python")]
         Command::ScriptHost => sinew_script::host::main(),
     };

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use sinew::motion::formats::{Format, WriteJob, write};
 use sinew::run::{Ran, RunJob, body_shapes, character_clip, csv, replay, run, scene_clip, sheet};
 use sinew::script::{Limits, ScriptHost};
-use sinew::stage::{Scene, Take};
+use sinew::stage::{Recording, Scene, Take};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `sinew run`.
@@ -53,7 +53,7 @@ pub(super) struct Replay {
 
 /// Where results go.
 #[derive(Debug, clap::Args)]
-struct Out {
+pub(super) struct Out {
     /// Where to write the motion: the whole scene as .glb, .gltf or .csv, one character as .bvh (see --character); may be
     /// repeated.
     #[arg(short, long, value_name = "OUT")]
@@ -69,12 +69,12 @@ struct Out {
     picture: Option<PathBuf>,
 }
 
-fn assignment(text: &str) -> Result<(String, String), String> {
+pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     let (path, value) = text.split_once('=').ok_or("write PATH=VALUE, such as characters.left.pose_gain=2")?;
     Ok((path.trim().to_owned(), value.trim().to_owned()))
 }
 
-fn press(text: &str) -> Result<(f64, String), String> {
+pub(super) fn press(text: &str) -> Result<(f64, String), String> {
     let usage = "write KEY@SECONDS, such as b@1.5";
     let (key, secs) = text.rsplit_once('@').ok_or(usage)?;
     let secs: f64 = secs.parse().map_err(|_| usage)?;
@@ -147,7 +147,7 @@ impl Replay {
 }
 
 impl Out {
-    fn check<'a>(
+    pub(super) fn check<'a>(
         &'a self,
         inputs: impl Iterator<Item = &'a PathBuf>,
         more: impl Iterator<Item = &'a PathBuf>,
@@ -161,12 +161,35 @@ impl Out {
     }
 
     fn write(&self, ran: &Ran, scene: &Scene) -> Result<()> {
-        let recording = &ran.recording;
+        let subtitle = format!("{:.2} s, {} physics steps", ran.report.duration_s, ran.report.steps);
+        self.write_motion(&ran.recording, scene, &subtitle)?;
+        self.write_report(&ran.report)
+    }
+
+    /// Whether anything is asked for that needs the motion.
+    pub(super) fn needs_motion(&self) -> bool {
+        !self.output.is_empty() || self.picture.is_some()
+    }
+
+    /// Files that were written.
+    pub(super) fn written(&self) -> impl Iterator<Item = &Path> {
+        self.output.iter().chain(&self.report).chain(&self.picture).map(PathBuf::as_path)
+    }
+
+    pub(super) fn write_report(&self, report: &impl serde::Serialize) -> Result<()> {
+        match &self.report {
+            Some(path) => output::write_json(path, report),
+            None => Ok(()),
+        }
+    }
+
+    /// Motion files and the picture.
+    pub(super) fn write_motion(&self, recording: &Recording, scene: &Scene, subtitle: &str) -> Result<()> {
         for path in &self.output {
             output::make_folder(path)?;
             if is_csv(path) {
                 if self.character.is_some() {
-                    self.one_of(ran, path)?;
+                    self.one_of(recording, path)?;
                 }
                 output::write_bytes(path, csv(recording, self.character.as_deref()).as_bytes())?;
                 continue;
@@ -175,28 +198,24 @@ impl Out {
             let (clip, shapes) = if shows_scene {
                 scene_clip(recording)
             } else {
-                let character = self.one_of(ran, path)?;
+                let character = self.one_of(recording, path)?;
                 (character_clip(recording, character), body_shapes(&character.body, 0))
             };
             for note in write(path, &WriteJob { clip: &clip, source: None }, &shapes)? {
                 eprintln!("note: {note}");
             }
         }
-        if let Some(path) = &self.report {
-            output::write_json(path, &ran.report)?;
-        }
         if let Some(path) = &self.picture {
             let title = scene.name.clone().unwrap_or_else(|| scene.file_name().to_owned());
-            let subtitle = format!("{:.2} s, {} physics steps", ran.report.duration_s, ran.report.steps);
-            let png = sheet(recording, scene, &title, &subtitle).to_png().context("the picture")?;
+            let png = sheet(recording, scene, &title, subtitle).to_png().context("the picture")?;
             output::write_bytes(path, &png)?;
         }
         Ok(())
     }
 
     /// The character that a file of one is to hold.
-    fn one_of<'a>(&self, ran: &'a Ran, path: &Path) -> Result<&'a sinew::stage::RecordedCharacter> {
-        let characters = &ran.recording.characters;
+    fn one_of<'a>(&self, recording: &'a Recording, path: &Path) -> Result<&'a sinew::stage::RecordedCharacter> {
+        let characters = &recording.characters;
         let names: Vec<&str> = characters.iter().map(|character| character.name.as_str()).collect();
         match (&self.character, &characters[..]) {
             (Some(name), _) => characters
@@ -233,7 +252,7 @@ impl Out {
                 character.hips_height_end_m, character.hips_height_min_m, character.steps
             ));
         }
-        let written = self.output.iter().chain(&self.report).chain(&self.picture).map(PathBuf::as_path).chain(take);
+        let written = self.written().chain(take);
         let written: Vec<String> = written.map(|path| path.display().to_string()).collect();
         if !written.is_empty() {
             lines.push(format!("wrote {}", written.join(", ")));
@@ -243,7 +262,7 @@ impl Out {
 }
 
 /// This program itself runs Python controllers, in a process of their own; one that was built without Python refuses them.
-fn script_host() -> Option<ScriptHost> {
+pub(super) fn script_host() -> Option<ScriptHost> {
     let program = std::env::current_exe().ok()?;
     let args = vec!["script-host".to_owned()];
     cfg!(feature = "python").then(|| ScriptHost { program, args, limits: Limits::default() })

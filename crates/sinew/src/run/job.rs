@@ -46,10 +46,10 @@ pub enum RunError {
 }
 
 /// The longest run \[s\].
-const MOST_SECS: f64 = 3600.0;
+pub(crate) const MOST_SECS: f64 = 3600.0;
 
 /// Steps between two hashes of a take's trace: one a second at 240 Hz.
-const TRACE_STEPS: u64 = 240;
+pub(crate) const TRACE_STEPS: u64 = 240;
 
 /// Runs a scene. `before_step` is called before every step with the stage, how many steps are done, and of how many; it may give
 /// the stage commands, which go into the take.

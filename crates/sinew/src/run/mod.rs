@@ -7,5 +7,7 @@ mod report;
 
 pub use draw::{figure, sheet};
 pub use export::{body_shapes, character_clip, csv, scene_clip};
+#[cfg(feature = "session")]
+pub(crate) use job::{MOST_SECS, TRACE_STEPS};
 pub use job::{Ran, RunError, RunJob, replay, run};
 pub use report::RunReport;

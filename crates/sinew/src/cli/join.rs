@@ -1,0 +1,192 @@
+//! `sinew join`.
+
+use super::output;
+use super::run::{Out, press};
+use anyhow::{Context, Result, bail};
+use sinew::control::Command;
+use sinew::session::{Client, JoinReport, Role, Standing, Token, View};
+use std::io::BufRead;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::time::{Duration, Instant};
+
+/// Arguments of `sinew join`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Join {
+    /// The token that `sinew serve` printed; or the server's HOST or HOST:PORT, with --token-file.
+    server: String,
+    /// The actor to play; may be repeated. Without it you watch, or operate with the operator's token.
+    #[arg(long = "as", value_name = "ACTOR")]
+    actors: Vec<String>,
+    /// A file with the token, such as `sinew serve --token-file` wrote: with --as the first line is taken, else the last.
+    #[arg(long, value_name = "F")]
+    token_file: Option<PathBuf>,
+    /// How long to stay [s]; until the session ends when left out.
+    #[arg(long = "for", value_name = "SECONDS")]
+    for_secs: Option<f64>,
+    /// Press a key of the scene at a time after joining [s], such as b@1.5; may be repeated.
+    #[arg(long, value_name = "KEY@SECONDS", value_parser = press)]
+    press: Vec<(f64, String)>,
+    /// Obey lines of the standard input: a key of the scene, or a command as JSON such as
+    /// {"character":"red","do":"pose","name":"guard"}.
+    #[arg(long)]
+    keys: bool,
+    /// The side that your own camera stands on, about +Y from +Z to +X [degrees]; the scene's when left out.
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    camera: Option<f64>,
+    #[command(flatten)]
+    out: Out,
+}
+
+/// Lines that wait to be sent.
+const MOST_LINES: usize = 100;
+
+impl Join {
+    pub(super) fn run(&self) -> Result<()> {
+        self.out.check(self.token_file.iter(), std::iter::empty())?;
+        let token = self.token()?;
+        let client = Client::join(&token, &self.actors)?;
+        let whom = match (self.actors.is_empty(), token.role) {
+            (false, _) => self.actors.join(", "),
+            (true, Role::Operator) => "its operator".to_owned(),
+            (true, Role::Actor) => "a spectator".to_owned(),
+        };
+        output::say(&format!("joined {} as {whom} at step {}", client.scene().file_name(), client.welcome().step))?;
+        let mut view = if self.out.needs_motion() { Some(View::of(&client)?) } else { None };
+        self.stay(&client, view.as_mut())?;
+        let report = JoinReport::of(&client);
+        let mut scene = client.scene().clone();
+        drop(client);
+        if let Some(view) = view.filter(|view| view.recording().frames > 0) {
+            if let Some(degrees) = self.camera {
+                scene.set("camera.from_deg", &degrees.to_string())?;
+            }
+            // Those of the scene count from its start.
+            scene.set("camera.times_secs", "[]")?;
+            let first = report.tally.first_step.unwrap_or_default();
+            self.out.write_motion(view.recording(), &scene, &format!("as {whom} saw it from step {first} on"))?;
+        }
+        self.out.write_report(&report)?;
+        let tally = &report.tally;
+        let mut lines = vec![format!(
+            "{} frames to step {}, {} late, {} differ; round trip {:.1} ms",
+            tally.frames,
+            tally.last_step.unwrap_or_default(),
+            tally.frames_late,
+            tally.frames_that_differ,
+            tally.round_trip_ms
+        )];
+        lines.extend(tally.not_passed.iter().map(|problem| format!("not passed on: {problem}")));
+        let written: Vec<String> = self.out.written().map(|path| path.display().to_string()).collect();
+        if !written.is_empty() {
+            lines.push(format!("wrote {}", written.join(", ")));
+        }
+        output::say(&lines.join("\n"))?;
+        if tally.frames_that_differ > 0 {
+            bail!("what arrived is not what the server has: its hashes differ; use the same Sinew on both sides");
+        }
+        match report.ended {
+            Some(why) if tally.frames == 0 => bail!("{why}"),
+            _ => Ok(()),
+        }
+    }
+
+    /// Until the time is over or the session ends.
+    fn stay(&self, client: &Client, mut view: Option<&mut View>) -> Result<()> {
+        let lines = self.keys.then(lines);
+        let mut presses = self.press.clone();
+        presses.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        let mut presses = presses.into_iter().peekable();
+        let began = Instant::now();
+        let mut stood = Standing::Connected;
+        loop {
+            let passed = began.elapsed().as_secs_f64();
+            if self.for_secs.is_some_and(|secs| passed >= secs) {
+                return Ok(());
+            }
+            while let Some((_, key)) = presses.next_if(|(secs, _)| *secs <= passed) {
+                client.press(&key);
+            }
+            for line in lines.iter().flat_map(Receiver::try_iter) {
+                send(client, line.trim());
+            }
+            if let Some(frame) = client.next_frame(Duration::from_millis(5))
+                && let Some(view) = &mut view
+            {
+                view.push(&frame);
+            }
+            let stands = client.standing();
+            if stands != stood {
+                match &stands {
+                    Standing::Connected => eprintln!("connected again"),
+                    Standing::Rejoining => eprintln!("the connection is lost; trying again"),
+                    Standing::Ended(why) => {
+                        eprintln!("{why}");
+                        return Ok(());
+                    }
+                }
+                stood = stands;
+            }
+        }
+    }
+
+    fn token(&self) -> Result<Token> {
+        let Some(path) = &self.token_file else {
+            let token: Token = self.server.parse().with_context(|| {
+                format!(
+                    "`{}` is no token, and a host needs --token-file",
+                    self.server.chars().take(80).collect::<String>()
+                )
+            })?;
+            return Ok(token);
+        };
+        let token: Token = self.line(&read_small(path)?).parse()?;
+        Ok(token.at(&self.server)?)
+    }
+
+    fn line<'a>(&self, text: &'a str) -> &'a str {
+        let mut lines = text.lines().filter(|line| !line.trim().is_empty());
+        let line = if self.actors.is_empty() { lines.next_back() } else { lines.next() };
+        line.unwrap_or_default()
+    }
+}
+
+fn read_small(path: &Path) -> Result<String> {
+    use std::io::Read;
+    let place = || format!("{}: the token cannot be read; check the file", path.display());
+    let mut text = String::new();
+    std::fs::File::open(path).and_then(|file| file.take(4096).read_to_string(&mut text)).with_context(place)?;
+    Ok(text)
+}
+
+/// Lines of the standard input, read by a thread that ends with the program or the input.
+fn lines() -> Receiver<String> {
+    let (sender, lines) = sync_channel(MOST_LINES);
+    std::thread::spawn(move || {
+        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
+            if sender.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    lines
+}
+
+fn send(client: &Client, line: &str) {
+    let is_sent = if line.is_empty() {
+        true
+    } else if line.starts_with('{') {
+        match serde_json::from_str::<Command>(line) {
+            Ok(command) => client.command(command),
+            Err(error) => {
+                eprintln!("this is no command: {error}");
+                true
+            }
+        }
+    } else {
+        client.press(line)
+    };
+    if !is_sent {
+        eprintln!("too much waits to be sent; this is left out");
+    }
+}

@@ -1,0 +1,135 @@
+//! `sinew serve`.
+
+use super::output;
+use super::run::{Out, assignment, script_host};
+use anyhow::{Context, Result};
+use sinew::session::{Playbill, Role, ServeJob, Server, ServerSettings, limits, serve};
+use sinew::stage::Scene;
+use std::net::{IpAddr, SocketAddr};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `sinew serve`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Serve {
+    /// The scene file.
+    scene: PathBuf,
+    /// The address to bind, with or without a port; 0.0.0.0 lets every machine of the network in. Loopback, which lets nobody
+    /// else in, when left out.
+    #[arg(long, value_name = "ADDRESS[:PORT]", default_value = "127.0.0.1", value_parser = bind)]
+    bind: SocketAddr,
+    /// What others call this machine, for the token; the bound address when left out.
+    #[arg(long, value_name = "HOST")]
+    name: Option<String>,
+    /// Where to write the tokens too: the actors' in the first line, the operator's in the second. Only you can read the file.
+    #[arg(long, value_name = "F")]
+    token_file: Option<PathBuf>,
+    /// Clients that may be in at a time.
+    #[arg(long, value_name = "N", default_value_t = 32)]
+    most_clients: usize,
+    /// How long to run [s]; until interrupted when left out.
+    #[arg(long = "for", value_name = "SECONDS")]
+    for_secs: Option<f64>,
+    /// Change a value of the scene first, such as characters.left.pose_gain=2; may be repeated.
+    #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
+    set: Vec<(String, String)>,
+    /// Where to record the take, for `sinew replay`.
+    #[arg(long, value_name = "T.take")]
+    take: Option<PathBuf>,
+    #[command(flatten)]
+    out: Out,
+}
+
+fn bind(text: &str) -> Result<SocketAddr, String> {
+    if let Ok(address) = text.parse() {
+        return Ok(address);
+    }
+    let ip: IpAddr =
+        text.parse().map_err(|_| "write an address of this machine, such as 192.168.1.5 or 0.0.0.0:47110")?;
+    Ok(SocketAddr::new(ip, limits::DEFAULT_PORT))
+}
+
+impl Serve {
+    pub(super) fn run(&self) -> Result<()> {
+        self.out.check([&self.scene].into_iter(), self.take.iter().chain(&self.token_file))?;
+        let mut scene = Scene::read(&self.scene)?;
+        for (path, value) in &self.set {
+            scene.set(path, value)?;
+        }
+        let settings = ServerSettings { bind: self.bind, name: self.name.clone(), most_clients: self.most_clients };
+        let (server, desk) = Server::open(&settings, Playbill::of(&scene)?)?;
+        self.tell(&server, &scene)?;
+        server.stop_on_interrupt();
+        let job = ServeJob {
+            for_secs: self.for_secs,
+            host: script_host(),
+            keeps_take: self.take.is_some(),
+            keeps_motion: self.out.needs_motion(),
+        };
+        let for_picture = scene.clone();
+        let served = serve(scene, &job, &server, desk, |_| ())?;
+        drop(server);
+        if let (Some(path), Some(take)) = (&self.take, &served.take) {
+            output::make_folder(path)?;
+            take.write(path)?;
+        }
+        let run = &served.report.run;
+        if let Some(recording) = &served.recording {
+            let subtitle = format!("{:.2} s, {} physics steps, served", run.duration_s, run.steps);
+            self.out.write_motion(recording, &for_picture, &subtitle)?;
+        }
+        self.out.write_report(&served.report)?;
+        let clients = &served.report.clients;
+        let mut lines = vec![
+            format!("{}: {:.2} s, {} steps, hash {}", self.scene.display(), run.duration_s, run.steps, run.hash),
+            format!(
+                "{} clients joined, {} strangers refused; {} orders passed, {} refused, {} dropped",
+                clients.joined,
+                clients.strangers_refused,
+                clients.orders,
+                clients.orders_refused,
+                clients.orders_dropped
+            ),
+        ];
+        let written = self.out.written().chain(self.take.as_deref());
+        let written: Vec<String> = written.map(|path| path.display().to_string()).collect();
+        if !written.is_empty() {
+            lines.push(format!("wrote {}", written.join(", ")));
+        }
+        output::say(&lines.join("\n"))
+    }
+
+    /// Says once how to join.
+    fn tell(&self, server: &Server, scene: &Scene) -> Result<()> {
+        let (actor, operator) = (server.token(Role::Actor), server.token(Role::Operator));
+        if let Some(path) = &self.token_file {
+            write_secretly(path, &format!("{actor}\n{operator}\n"))?;
+        }
+        let whom: Vec<&str> = scene.characters.keys().map(String::as_str).collect();
+        let reach = if server.address().ip().is_loopback() {
+            "for this machine only; --bind lets others in"
+        } else {
+            "whoever has a token can join"
+        };
+        output::say(&format!(
+            "{} is served at {}, {reach}\nactors ({}):  sinew join {actor} --as NAME\nthe operator:  sinew join {operator}",
+            self.scene.display(),
+            server.address(),
+            whom.join(", "),
+        ))
+    }
+}
+
+/// Writes a file that only its owner can read.
+fn write_secretly(path: &Path, text: &str) -> Result<()> {
+    use std::io::Write;
+    output::make_folder(path)?;
+    // An old file may be open to others, and what is written would go there.
+    let _ = std::fs::remove_file(path);
+    let mut options = std::fs::OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    let place = || format!("{}: the tokens cannot be written; choose another place", path.display());
+    let mut file = options.open(path).with_context(place)?;
+    file.write_all(text.as_bytes()).with_context(place)
+}

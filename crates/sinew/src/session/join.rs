@@ -1,0 +1,80 @@
+//! What somebody who has joined keeps of what they see.
+
+use serde::Serialize;
+use sinew_live::session::{Client, Role, Standing, Tally};
+use sinew_stage::{Recording, StageError};
+use sinew_world::Frame;
+
+/// The report of `sinew join`.
+#[derive(Clone, Debug, Serialize)]
+pub struct JoinReport {
+    /// The scene file.
+    pub scene: String,
+    /// What the client may do.
+    pub role: Role,
+    /// Actors that it plays.
+    pub actors: Vec<String>,
+    /// Physics steps that were done when it joined.
+    pub joined_step: u64,
+    /// Why the session ended before the client wanted to leave.
+    pub ended: Option<String>,
+    /// What was received.
+    #[serde(flatten)]
+    pub tally: Tally,
+}
+
+impl JoinReport {
+    /// Of a client, as things are now.
+    pub fn of(client: &Client) -> JoinReport {
+        let welcome = client.welcome();
+        JoinReport {
+            scene: client.scene().file_name().to_owned(),
+            role: welcome.role,
+            actors: welcome.actors.clone(),
+            joined_step: welcome.step,
+            ended: match client.standing() {
+                Standing::Ended(why) => Some(why.to_string()),
+                _ => None,
+            },
+            tally: client.tally(),
+        }
+    }
+}
+
+/// The motion as a client sees it, for its own pictures and files, of an hour at most.
+pub struct View {
+    recording: Recording,
+    steps_per_frame: u64,
+    first_step: Option<u64>,
+}
+
+/// Frames that are kept: an hour at 60 Hz.
+const MOST_FRAMES: usize = 216_000;
+
+impl View {
+    /// Nothing yet.
+    ///
+    /// # Errors
+    /// When a clip of the scene cannot be read.
+    pub fn of(client: &Client) -> Result<View, StageError> {
+        let scene = client.scene();
+        let steps_per_frame = u64::from(scene.stage.steps_per_frame()).max(1);
+        Ok(View { recording: Recording::of_scene(scene)?, steps_per_frame, first_step: None })
+    }
+
+    /// Takes a frame down. Frames that never came are shown as the one after them.
+    pub fn push(&mut self, frame: &Frame) {
+        let first = *self.first_step.get_or_insert(frame.step);
+        let place = frame.step.saturating_sub(first) / self.steps_per_frame;
+        let is_whole = frame.characters.len() == self.recording.characters.len()
+            && frame.props.len() == self.recording.props.len();
+        while is_whole && self.recording.frames as u64 <= place && self.recording.frames < MOST_FRAMES {
+            self.recording.push_frame(frame);
+        }
+    }
+
+    /// What was seen.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
+    }
+}
