@@ -84,6 +84,9 @@ pub enum Action {
         /// Axes of the character's facing (x left, y up, z forward) instead of the world's.
         #[serde(default)]
         facing: bool,
+        /// Where it acts, in the part's or object's own frame \[m\]; its centre of mass when left out.
+        #[serde(default)]
+        at_m: Option<[f64; 3]>,
     },
     /// Scale all joint gains of the character (EQ3's global gain).
     Gain {
@@ -126,9 +129,37 @@ pub enum Action {
         /// The object, when `character` is `None`.
         #[serde(default)]
         on: Option<String>,
+        /// Only this part of the character.
+        #[serde(default)]
+        part: Option<String>,
+        /// Time over which the factor comes to this from what it is \[s\]; at once when left out.
+        #[serde(default)]
+        over_secs: Option<f64>,
         /// For how long \[s\]; until changed again when left out.
         #[serde(default)]
         for_secs: Option<f64>,
+    },
+    /// Drive a joint of the scene: at most one of the four aims is stated; with none the joint is let go.
+    Motor {
+        /// The joint.
+        joint: String,
+        /// A hinge's speed \[rad/s\].
+        #[serde(default)]
+        speed_rad_s: Option<f64>,
+        /// A hinge's angle from where it was at the start \[degrees\].
+        #[serde(default)]
+        angle_deg: Option<f64>,
+        /// A slider's speed \[m/s\].
+        #[serde(default)]
+        speed_m_s: Option<f64>,
+        /// A slider's shift from where it was at the start \[m\].
+        #[serde(default)]
+        shift_m: Option<f64>,
+    },
+    /// Cut a joint of the scene for good.
+    Cut {
+        /// The joint.
+        joint: String,
     },
     /// Swap a part's collision shape for one named in the scene (`skis`), or back to its own with `own`.
     Shape {

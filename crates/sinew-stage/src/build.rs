@@ -5,14 +5,14 @@ use crate::actor::Actor;
 use crate::cast::Cast;
 use crate::motion_source::{self, MotionSource, Play};
 use crate::obey::heading;
-use crate::scene::{CharacterSpec, Scene, SourceSpec, TrackerKind};
+use crate::scene::{CharacterSpec, RopeSpec, Scene, SourceSpec, TrackerKind};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, exp};
-use sinew_control::graph::Graph;
+use sinew_control::graph::{Graph, Touchable};
 use sinew_control::pose::{KeyPose, STAND, resolve_poses};
 use sinew_control::tracker::JointGain;
 use sinew_control::{Layer, PoseSpec};
-use sinew_world::{Surface, World, hips_over_soles_m};
+use sinew_world::{Entity, PropJointKind, PropJointSpec, Surface, World, hips_over_soles_m};
 use std::collections::BTreeMap;
 
 /// Why a scene cannot be built.
@@ -74,7 +74,64 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         actor.motion = cut.motion;
         actors.push(actor);
     }
+    fasten(scene, cast, world)?;
     Ok(actors)
+}
+
+/// Joints of the scene, in the order of [`Cast::joints`], and those within ropes.
+fn fasten(scene: &Scene, cast: &Cast, world: &mut World) -> Result<(), StageError> {
+    for (name, spec) in &scene.joints {
+        let wrong = |problem: String| StageError {
+            file: scene.file_name().to_owned(),
+            place: format!("joints.{name}"),
+            problem,
+        };
+        let thing = |name: &str| match cast.meaning(name, None) {
+            Some(Touchable::One(entity)) => Ok(entity),
+            _ => Err(wrong(format!("`{name}` cannot be fastened"))),
+        };
+        let between = [thing(&spec.between[0])?, thing(&spec.between[1])?];
+        let place = |prop: &str| scene.props.get(prop).map(|prop| prop.position_m);
+        let anchors =
+            spec.anchors(place).ok_or_else(|| wrong("nothing says where it is; write anchor_m".to_owned()))?;
+        let joint = PropJointSpec {
+            between,
+            anchors,
+            kind: spec.in_world(anchors),
+            motor: spec.motor(),
+            break_force_n: spec.break_n,
+            touches: spec.touches,
+        };
+        world.add_prop_joint(joint).map_err(|error| wrong(error.to_string()))?;
+    }
+    for (name, rope) in &scene.ropes {
+        let wrong = |problem: String| StageError {
+            file: scene.file_name().to_owned(),
+            place: format!("ropes.{name}"),
+            problem,
+        };
+        let piece = |number: usize| {
+            let prop = cast.prop(&RopeSpec::piece(name, number)).ok_or_else(|| wrong("a piece is missing".to_owned()));
+            prop.map(Entity::Prop)
+        };
+        let mut join = |from: usize, to: usize, anchors: [DVec3; 2], kind: PropJointKind| {
+            let between = [piece(from)?, piece(to)?];
+            let touches = !matches!(kind, PropJointKind::Ball);
+            let joint = PropJointSpec { between, anchors, kind, motor: None, break_force_n: None, touches };
+            world.add_prop_joint(joint).map_err(|error| wrong(error.to_string()))
+        };
+        for number in 1..rope.pieces {
+            join(number, number + 1, [rope.joint(number + 1); 2], PropJointKind::Ball)?;
+        }
+        for (from, to) in rope.spans() {
+            let anchors = [rope.joint(from + 1), rope.joint(to)];
+            let length_m = (anchors[1] - anchors[0]).length();
+            if length_m > 1e-3 {
+                join(from, to, anchors, PropJointKind::Rope { length_m })?;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// What begins with the first step: gravity, planes, layers, reflexes, graphs, controllers.

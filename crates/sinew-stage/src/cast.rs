@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 pub struct Cast {
     characters: Vec<String>,
     props: Vec<String>,
+    joints: Vec<String>,
     /// By character: alias, part.
     aliases: Vec<BTreeMap<String, Node>>,
 }
@@ -27,6 +28,7 @@ impl Cast {
         Cast {
             characters: scene.characters.keys().cloned().collect(),
             props: scene.props.keys().cloned().collect(),
+            joints: scene.joints.keys().cloned().collect(),
             aliases: scene.characters.values().map(aliases).collect(),
         }
     }
@@ -39,6 +41,11 @@ impl Cast {
     /// Names of props, in the order of the frame.
     pub fn props(&self) -> &[String] {
         &self.props
+    }
+
+    /// Names of the scene's joints, in the order of the world's.
+    pub fn joints(&self) -> &[String] {
+        &self.joints
     }
 
     /// Aliases of a character's parts.
@@ -54,6 +61,11 @@ impl Cast {
     /// The prop of this name.
     pub fn prop(&self, name: &str) -> Option<usize> {
         self.props.iter().position(|known| known == name)
+    }
+
+    /// The joint of this name.
+    pub fn joint(&self, name: &str) -> Option<usize> {
+        self.joints.iter().position(|known| known == name)
     }
 
     /// A part of a character, by its VRM name or an alias.

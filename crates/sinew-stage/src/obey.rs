@@ -1,6 +1,7 @@
 //! What each command does.
 
 use crate::Stage;
+use crate::fade::Weighs;
 use crate::scene::TrackerKind;
 use crate::span::{Ending, LastingPush, MOST_PUSHES};
 use crate::stage::step_of;
@@ -88,14 +89,16 @@ impl Stage {
                 self.world.detach(character, node, object_entity);
                 format!("{who}'s {} lets go of {object}", node.part())
             }
-            Action::Push { on, force_n, for_secs, facing } => {
+            Action::Push { on, force_n, for_secs, facing, at_m } => {
                 let node = self.part(character, on)?;
                 let mut force = vector(*force_n, "force_n")?;
                 if *facing {
                     let frame = &self.world.frame().characters[character];
                     force = frame.left() * force.x + DVec3::Y * force.y + frame.facing * force.z;
                 }
-                self.start_push(Entity::Part(character, node), force, *for_secs)?;
+                if !self.start_push(Entity::Part(character, node), force, *at_m, *for_secs)? {
+                    return Ok(None);
+                }
                 format!("{who}'s {} is pushed with {:.0} N for {for_secs:.2} s", node.part(), force.length())
             }
             Action::Gain { factor, part } => {
@@ -137,12 +140,19 @@ impl Stage {
                 self.spans.end_at(None, Ending::Plane(character));
                 return Ok(None);
             }
-            Action::Gravity { scale, for_secs, .. } => {
+            Action::Gravity { scale, part, over_secs, for_secs, .. } => {
                 let scale = number(*scale, "scale")?;
+                let over_secs = over_secs.map(|secs| number(secs, "over_secs")).transpose()?;
                 let until = self.until(*for_secs)?;
-                self.world.set_gravity(character, scale);
-                self.spans.end_at(until, Ending::Gravity(character));
-                format!("{who}: gravity times {scale}")
+                let only = part.as_deref().map(|part| self.part(character, part)).transpose()?;
+                let nodes = only.map_or(Node::ALL.to_vec(), |node| vec![node]);
+                let things: Vec<Weighs> = nodes.iter().map(|&node| Weighs::Part(character, node)).collect();
+                self.weigh(&things, scale, over_secs);
+                for &node in &nodes {
+                    self.spans.end_at(until, Ending::Gravity(character, node));
+                }
+                let of = if only.is_some() { format!(" on {}", listed(&nodes)) } else { String::new() };
+                format!("{who}: gravity{of} times {scale}{}", over(over_secs))
             }
             Action::Shape { part, shape, for_secs } => {
                 let node = self.part(character, part)?;
@@ -196,46 +206,9 @@ impl Stage {
             Action::Reload { name, text } => return self.reload(name, text.as_deref()).map(Some),
             Action::ScriptKilled { name, reason } => return self.kill_script(name, reason).map(Some),
             Action::Say { text } => format!("{who}: {text}"),
-            Action::Place { .. } | Action::Accelerate { .. } => return self.obey_on_stage(action),
-        };
-        Ok(Some(effect))
-    }
-
-    fn obey_on_stage(&mut self, action: &Action) -> Result<Option<String>, String> {
-        let effect = match action {
-            Action::Place { object, position_m, velocity_m_s } => {
-                let prop = self.prop(object)?;
-                let place = |value: &Option<[f64; 3]>, what| value.map(|value| vector(value, what)).transpose();
-                let (position, velocity) = (place(position_m, "position_m")?, place(velocity_m_s, "velocity_m_s")?);
-                self.world.place_prop(prop, position, velocity);
-                format!("{object} is placed")
+            Action::Place { .. } | Action::Accelerate { .. } | Action::Motor { .. } | Action::Cut { .. } => {
+                return self.obey_on_stage(action);
             }
-            Action::Accelerate { object, acceleration_m_s2, for_secs } => {
-                let prop = self.prop(object)?;
-                let acceleration = vector(*acceleration_m_s2, "acceleration_m_s2")?;
-                let until = self.until(Some(*for_secs))?;
-                self.world.accelerate_prop(prop, acceleration);
-                self.spans.end_at(until, Ending::Acceleration(prop));
-                format!("{object} is accelerated by {:.2} m/s² for {for_secs:.2} s", acceleration.length())
-            }
-            Action::Push { on, force_n, for_secs, .. } => {
-                let prop = self.prop(on)?;
-                let force = vector(*force_n, "force_n")?;
-                self.start_push(Entity::Prop(prop), force, *for_secs)?;
-                format!("{on} is pushed with {:.0} N for {for_secs:.2} s", force.length())
-            }
-            Action::Gravity { scale, on: Some(on), for_secs } => {
-                let prop = self.prop(on)?;
-                let scale = number(*scale, "scale")?;
-                let until = self.until(*for_secs)?;
-                self.world.set_prop_gravity(prop, scale);
-                self.spans.end_at(until, Ending::PropGravity(prop));
-                format!("{on}: gravity times {scale}")
-            }
-            Action::Reload { name, text } => self.reload(name, text.as_deref())?,
-            Action::ScriptKilled { name, reason } => self.kill_script(name, reason)?,
-            Action::Say { text } => text.clone(),
-            _ => return Err("this command needs a character".to_owned()),
         };
         Ok(Some(effect))
     }
@@ -255,14 +228,15 @@ impl Stage {
                 self.world.free_from_plane(*character);
                 format!("{} is free in three dimensions", who(*character))
             }
-            Ending::Gravity(character) => {
+            Ending::Gravity(character, node) => {
                 let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
-                self.world.set_gravity(*character, scale);
-                format!("{}: gravity times {scale}", who(*character))
+                let effect = format!("{}: gravity on {} times {scale}", who(*character), node.part());
+                self.weigh(&[Weighs::Part(*character, *node)], scale, None);
+                effect
             }
             Ending::PropGravity(prop) => {
                 let scale = self.scene.props.values().nth(*prop).and_then(|spec| spec.gravity_scale).unwrap_or(1.0);
-                self.world.set_prop_gravity(*prop, scale);
+                self.weigh(&[Weighs::Prop(*prop)], scale, None);
                 format!("{}: gravity times {scale}", self.cast.props()[*prop])
             }
             Ending::Shape(character, node) => {
@@ -291,19 +265,28 @@ impl Stage {
         }
     }
 
-    fn start_push(&mut self, on: Entity, force: DVec3, for_secs: f64) -> Result<(), String> {
+    /// Begins a push. False when it is one of a row that a script gives step by step: only its first is worth a note.
+    pub(crate) fn start_push(
+        &mut self,
+        on: Entity,
+        force: DVec3,
+        at_m: Option<[f64; 3]>,
+        for_secs: f64,
+    ) -> Result<bool, String> {
+        let at = at_m.map(|at| vector(at, "at_m")).transpose()?;
         if self.spans.pushes.len() >= MOST_PUSHES {
             return Err(format!("{MOST_PUSHES} pushes act already"));
         }
         let for_secs = number(for_secs, "for_secs")?;
         let steps = step_of(for_secs, self.world.settings().step_secs()).max(1);
         let until_step = self.world.frame().step.saturating_add(steps);
-        self.spans.pushes.push(LastingPush { on, force, until_step });
-        Ok(())
+        let goes_on = steps == 1 && self.spans.pushes.iter().any(|push| push.on == on);
+        self.spans.pushes.push(LastingPush { on, at, force, until_step });
+        Ok(!goes_on)
     }
 
     /// The step at which something that begins now ends; `None` for never.
-    fn until(&self, for_secs: Option<f64>) -> Result<Option<u64>, String> {
+    pub(crate) fn until(&self, for_secs: Option<f64>) -> Result<Option<u64>, String> {
         let Some(secs) = for_secs else { return Ok(None) };
         let steps = step_of(number(secs, "for_secs")?, self.world.settings().step_secs()).max(1);
         Ok(Some(self.world.frame().step.saturating_add(steps)))
@@ -321,7 +304,7 @@ impl Stage {
         names.iter().map(|name| self.part(character, name)).collect()
     }
 
-    fn prop(&self, name: &str) -> Result<usize, String> {
+    pub(crate) fn prop(&self, name: &str) -> Result<usize, String> {
         self.cast.prop(name).ok_or_else(|| format!("no object `{name}`; there are {}", self.cast.props().join(", ")))
     }
 
@@ -368,13 +351,18 @@ pub(crate) fn heading(degrees: f64) -> DVec3 {
     DQuat::from_axis_angle(DVec3::Y, degrees.to_radians()) * DVec3::Z
 }
 
-fn number(value: f64, what: &str) -> Result<f64, String> {
+pub(crate) fn number(value: f64, what: &str) -> Result<f64, String> {
     if value.is_finite() { Ok(value) } else { Err(format!("{what} is not a finite number")) }
 }
 
-fn vector(value: [f64; 3], what: &str) -> Result<DVec3, String> {
+pub(crate) fn vector(value: [f64; 3], what: &str) -> Result<DVec3, String> {
     let vector = DVec3::from(value);
     if vector.is_finite() { Ok(vector) } else { Err(format!("{what} is not made of finite numbers")) }
+}
+
+/// How long something takes, for an event.
+pub(crate) fn over(over_secs: Option<f64>) -> String {
+    over_secs.map_or(String::new(), |secs| format!(" within {secs:.2} s"))
 }
 
 fn listed(nodes: &[Node]) -> String {

@@ -1,5 +1,6 @@
 //! Things that last for a time: what is to be undone, and when.
 
+use crate::fade::Fade;
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_world::Entity;
@@ -11,8 +12,8 @@ pub enum Ending {
     ForcesOff(usize, Node),
     /// A character is freed from its plane.
     Plane(usize),
-    /// A character's gravity goes back to its scale in the scene.
-    Gravity(usize),
+    /// Gravity on a part goes back to the character's scale in the scene.
+    Gravity(usize, Node),
     /// A prop's gravity goes back to its scale in the scene.
     PropGravity(usize),
     /// A part gets its own shape again.
@@ -28,6 +29,8 @@ pub enum Ending {
 pub struct LastingPush {
     /// On what.
     pub on: Entity,
+    /// Where, in its own frame \[m\]; its centre of mass when `None`.
+    pub at: Option<DVec3>,
     /// World axes \[N\].
     pub force: DVec3,
     /// The first step in which it no longer acts.
@@ -40,6 +43,8 @@ pub struct Spans {
     endings: Vec<(u64, Ending)>,
     /// Forces that act now.
     pub pushes: Vec<LastingPush>,
+    /// Factors on gravity that are on their way.
+    pub fades: Vec<Fade>,
 }
 
 /// Pushes that act at the same time; further ones are refused.

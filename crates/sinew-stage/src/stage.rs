@@ -15,7 +15,7 @@ use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command};
 use sinew_script::ScriptHost;
 use sinew_world::{Frame, PartShape, World};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A scene that runs.
@@ -35,6 +35,8 @@ pub struct Stage {
     /// Kills of scripts that a take prescribes; `None` when scripts are held to time themselves.
     pub(crate) prescribed: Option<Vec<Stamped>>,
     reactions: Reactions,
+    /// Joints of the scene that are cut or broken, as far as that is noted.
+    pub(crate) broken: BTreeSet<usize>,
     /// Commands for the next step.
     inbox: Vec<Command>,
     /// The scene's own commands that are still to come, the next one last.
@@ -87,6 +89,7 @@ impl Stage {
             records: true,
             prescribed: None,
             reactions,
+            broken: BTreeSet::new(),
             inbox: Vec::new(),
             timed,
             hasher: xxhash_rust::xxh3::Xxh3::new(),
@@ -149,8 +152,10 @@ impl Stage {
         self.step_scripts(step);
         self.step_actors();
         self.push_on(step);
+        self.fade_on(step);
         self.world.step();
         self.note_resets();
+        self.note_breaks();
         self.hasher.update(&self.world.hash().to_le_bytes());
     }
 
@@ -231,8 +236,14 @@ impl Stage {
         self.spans.pushes.retain(|push| push.until_step > step);
         for push in &self.spans.pushes {
             match push.on {
-                sinew_world::Entity::Part(character, node) => world.push_part(character, node, push.force, None),
-                sinew_world::Entity::Prop(prop) => world.push_prop(prop, push.force, None),
+                sinew_world::Entity::Part(character, node) => {
+                    let at = push.at.map(|at| world.frame().characters[character].part(node).point(at));
+                    world.push_part(character, node, push.force, at);
+                }
+                sinew_world::Entity::Prop(prop) => {
+                    let at = push.at.map(|at| world.frame().props[prop].point(at));
+                    world.push_prop(prop, push.force, at);
+                }
                 sinew_world::Entity::Floor => {}
             }
         }
@@ -244,6 +255,18 @@ impl Stage {
                 self.actors[index].reset();
                 let name = self.cast.characters()[index].clone();
                 self.note("its body had gone wrong", format!("{name} is put back to where it was last sound"));
+            }
+        }
+    }
+}
+
+impl Stage {
+    /// Joints that broke in the last step; those that were cut are noted by the command.
+    fn note_breaks(&mut self) {
+        for joint in 0..self.cast.joints().len() {
+            if !self.world.prop_joint(joint).is_whole && self.broken.insert(joint) {
+                let name = self.cast.joints()[joint].clone();
+                self.note(format!("{name} bore too much"), format!("{name} breaks"));
             }
         }
     }

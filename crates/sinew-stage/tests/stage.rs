@@ -28,7 +28,7 @@ fn a_command_acts_in_the_step_that_follows_it_and_is_recorded_with_it() {
     steps(&mut stage, 7);
     stage.command(Command::to(
         "one",
-        Action::Push { on: "chest".to_owned(), force_n: [0.0, 0.0, 500.0], for_secs: 0.05, facing: false },
+        Action::Push { on: "chest".to_owned(), force_n: [0.0, 0.0, 500.0], for_secs: 0.05, facing: false, at_m: None },
     ));
     let before = stage.frame().characters[0].centre_velocity.z;
     stage.step();
@@ -89,10 +89,16 @@ fn a_command_that_makes_no_sense_is_refused_in_words_and_the_stage_goes_on() {
     let mut stage = stage(STANDING);
     for action in [
         Action::Pose { name: "nonsense".to_owned() },
-        Action::Push { on: "tail".to_owned(), force_n: [0.0; 3], for_secs: 1.0, facing: false },
-        Action::Push { on: "chest".to_owned(), force_n: [f64::NAN; 3], for_secs: 1.0, facing: false },
-        Action::Push { on: "chest".to_owned(), force_n: [1e300; 3], for_secs: f64::INFINITY, facing: false },
-        Action::Gravity { scale: f64::NAN, on: None, for_secs: None },
+        Action::Push { on: "tail".to_owned(), force_n: [0.0; 3], for_secs: 1.0, facing: false, at_m: None },
+        Action::Push { on: "chest".to_owned(), force_n: [f64::NAN; 3], for_secs: 1.0, facing: false, at_m: None },
+        Action::Push {
+            on: "chest".to_owned(),
+            force_n: [1e300; 3],
+            for_secs: f64::INFINITY,
+            facing: false,
+            at_m: None,
+        },
+        Action::Gravity { scale: f64::NAN, on: None, part: None, over_secs: None, for_secs: None },
         Action::Shape { part: "leftFoot".to_owned(), shape: "skis".to_owned(), for_secs: None },
         Action::Attach { link: "leftHand".to_owned(), object: "moon".to_owned(), soft: false, break_n: None },
         Action::Tracker { name: "magic".to_owned() },
@@ -160,7 +166,7 @@ fn absurd_gains_and_forces_never_leave_a_frame_that_is_not_finite() {
         let force_n = [if round % 2 == 0 { most } else { -most }, most, 0.0];
         stage.command(Command::to(
             "one",
-            Action::Push { on: "leftHand".to_owned(), force_n, for_secs: 0.01, facing: false },
+            Action::Push { on: "leftHand".to_owned(), force_n, for_secs: 0.01, facing: false, at_m: None },
         ));
         stage.command(Command::to("one", Action::Gain { factor: 1000.0, part: None }));
         for _ in 0..12 {

@@ -31,7 +31,10 @@ fn take() -> Take {
     let mut take = Take::of(&scene);
     let force_n = [0.1, -1e-300, 1.0 / 3.0];
     take.push(0, Command::to("left", Action::PlaneOff {}));
-    take.push(7, Command::to("left", Action::Push { on: "head".to_owned(), force_n, for_secs: 0.1, facing: true }));
+    take.push(
+        7,
+        Command::to("left", Action::Push { on: "head".to_owned(), force_n, for_secs: 0.1, facing: true, at_m: None }),
+    );
     take.push(7, Command::stage(Action::Say { text: "line\nbreak \u{2028} \"\\".to_owned() }));
     take.steps = 480;
     take.hash = 0xfedc_ba98_7654_3210;

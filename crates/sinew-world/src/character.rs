@@ -34,7 +34,8 @@ pub(crate) struct Character {
     pub holds: [Hold; Node::COUNT],
     /// Moments of inertia of what hangs from each joint, about it \[kg m²\].
     pub outboard: [f64; Node::COUNT],
-    pub gravity_scale: f64,
+    /// Factors on gravity.
+    pub gravity_scales: [f64; Node::COUNT],
     pub planes: Vec<ImpulseJointHandle>,
     /// What each joint's parent feels at the start of a step.
     pub borne: [Borne; Node::COUNT],
@@ -62,7 +63,7 @@ impl Character {
             pins: [None; Node::COUNT],
             holds: [Hold::Free; Node::COUNT],
             outboard,
-            gravity_scale: 1.0,
+            gravity_scales: [1.0; Node::COUNT],
             planes: Vec::new(),
             borne: [Borne::default(); Node::COUNT],
             extra_shapes: Vec::new(),
@@ -144,7 +145,7 @@ impl Character {
     }
 
     fn prepare_body(&self, engine: &mut Engine, node: Node, step_secs: f64, load: &Load) {
-        let gravity = engine.gravity * self.gravity_scale;
+        let gravity = engine.gravity * self.gravity_scales[node.index()];
         let Some(body) = engine.bodies.get_mut(self.bodies[node.index()]) else { return };
         body.add_force(load.force, false);
         body.add_torque(load.moment - body.center_of_mass().cross(load.force), false);

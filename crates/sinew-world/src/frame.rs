@@ -86,6 +86,11 @@ impl BodyState {
         angular_velocity: DVec3::ZERO,
     };
 
+    /// A point of the body's own frame in the world \[m\].
+    pub fn point(&self, own: DVec3) -> DVec3 {
+        self.position + self.rotation * own
+    }
+
     /// Velocity of a point of the body \[m/s\].
     pub fn velocity_at(&self, point: DVec3) -> DVec3 {
         self.velocity + self.angular_velocity.cross(point - self.centre)

@@ -255,7 +255,11 @@ const STOP_RANGE: f64 = 1.46875;
 
 /// Stops a row's turn in the direction of `sign` where the limit's spring has given way.
 fn stop(joint: &mut GenericJoint, axis: JointAxis, violation: f64, sign: f64) {
-    let room = STOP - violation;
+    stop_at(joint, axis, STOP - violation, sign);
+}
+
+/// Stops a row's turn in the direction of `sign` after so much more of it \[rad\].
+pub(crate) fn stop_at(joint: &mut GenericJoint, axis: JointAxis, room: f64, sign: f64) {
     if room > STOP_NEAR {
         joint.limit_axes.remove(JointAxesMask::from(axis));
         return;

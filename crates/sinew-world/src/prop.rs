@@ -23,6 +23,7 @@ impl Prop {
         ) else {
             return Err(SpecError::NotFinite);
         };
+        let drag = if spec.drag_per_s.is_finite() { spec.drag_per_s.clamp(0.0, 1e3) } else { 0.0 };
         let surface = sound::surface(spec.surface);
         let shape = spec.solid.shape().ok_or(SpecError::NoShape)?;
         let (kind, mass) = match spec.motion {
@@ -41,7 +42,9 @@ impl Prop {
             .linvel(velocity)
             .angvel(spin)
             .ccd_enabled(mass.is_some())
-            .gravity_scale(gravity_scale);
+            .gravity_scale(gravity_scale)
+            .linear_damping(drag)
+            .angular_damping(drag);
         let handle = engine.bodies.insert(rigid);
         let mut collider = ColliderBuilder::new(shape)
             .position(spec.solid.placement())

@@ -14,6 +14,8 @@ struct Row {
     turns: [DVec3; 2],
 }
 
+const SHIFTS: [JointAxesMask; 3] = [JointAxesMask::LIN_X, JointAxesMask::LIN_Y, JointAxesMask::LIN_Z];
+
 /// Impulse that a joint's locked shifts put on its first body in the last sub-step, and the opposite on its second, at the joint;
 /// world axes \[N s\].
 pub(crate) fn joint_impulse(joint: &ImpulseJoint, bodies: &RigidBodySet) -> DVec3 {
@@ -33,7 +35,10 @@ pub(crate) fn joint_impulse(joint: &ImpulseJoint, bodies: &RigidBodySet) -> DVec
         }
     }
     let turns = count;
-    for at in 0..3 {
+    for (at, mask) in SHIFTS.into_iter().enumerate() {
+        if !locked.contains(mask) {
+            continue;
+        }
         let axis = axes.col(at);
         rows[count] = (Row { shift: axis, turns: levers.map(|lever| lever.cross(axis)) }, joint.impulses[at]);
         count += 1;
@@ -41,7 +46,7 @@ pub(crate) fn joint_impulse(joint: &ImpulseJoint, bodies: &RigidBodySet) -> DVec
     let inverses = [inverse_inertia(one), inverse_inertia(other)];
     let inverse_mass = one.mass_properties().effective_inv_mass + other.mass_properties().effective_inv_mass;
     let impulses = true_impulses(&rows[..count], inverse_mass, &inverses);
-    let impulse = (0..3).map(|at| axes.col(at) * impulses[turns + at]).sum::<DVec3>();
+    let impulse = (turns..count).map(|at| rows[at].0.shift * impulses[at]).sum::<DVec3>();
     if impulse.is_finite() { impulse } else { DVec3::ZERO }
 }
 

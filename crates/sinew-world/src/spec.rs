@@ -52,6 +52,8 @@ pub struct PropSpec {
     pub is_sensor: bool,
     /// Factor on gravity.
     pub gravity_scale: f64,
+    /// What air takes of its velocity and of its turning, relative to them \[1/s\].
+    pub drag_per_s: f64,
 }
 
 impl PropSpec {
@@ -67,6 +69,7 @@ impl PropSpec {
             spin: DVec3::ZERO,
             is_sensor: false,
             gravity_scale: 1.0,
+            drag_per_s: 0.0,
         }
     }
 }
@@ -89,6 +92,12 @@ pub enum SpecError {
     /// A dynamic triangle mesh.
     #[error("a mesh of triangles has no inside and cannot be dynamic; make it fixed, or use its hull")]
     HollowMesh,
+    /// A joint that cannot be made.
+    #[error(
+        "the joint cannot be made: it needs two different things, points within the world, an axis, lengths, gains and forces above \
+         0, a range around 0, and a motor only on a hinge or a slider"
+    )]
+    NoJoint,
     /// A mass, size or inertia that is not above 0, or beyond all bounds.
     #[error("{0} has no mass or no size, or one that is not a sound number")]
     NoMass(&'static str),

@@ -213,7 +213,7 @@ impl World {
         let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.characters.get(character)) else {
             return 0.0;
         };
-        let gravity = -self.engine.gravity.y * one.gravity_scale;
+        let gravity = -self.engine.gravity.y;
         Node::ALL
             .into_iter()
             .filter_map(|node| {
@@ -222,7 +222,7 @@ impl World {
                 let (part, inertia) = (frame.part(node), ragdoll::part_inertia(one.body(), node));
                 let spin = part.rotation.conjugate() * body.angvel();
                 let kinetic = 0.5 * (mass * body.linvel().length_squared() + (spin * spin).dot(inertia));
-                Some(kinetic + mass * gravity * part.centre.y)
+                Some(kinetic + mass * gravity * one.gravity_scales[node.index()] * part.centre.y)
             })
             .sum()
     }

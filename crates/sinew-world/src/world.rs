@@ -4,6 +4,7 @@ use crate::attachment::Attachment;
 use crate::character::{Character, Hold};
 use crate::engine::{Engine, tag};
 use crate::prop::Prop;
+use crate::prop_joint::PropJoint;
 use crate::watch::Watch;
 use crate::{CharacterSpec, Drive, Frame, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll, sound};
 use glam::{DQuat, DVec3};
@@ -37,6 +38,7 @@ pub struct World {
     pub(crate) characters: Vec<Character>,
     pub(crate) props: Vec<Prop>,
     pub(crate) attachments: Vec<Attachment>,
+    pub(crate) prop_joints: Vec<PropJoint>,
     pub(crate) frame: Frame,
     pub(crate) watch: Watch,
 }
@@ -51,6 +53,7 @@ impl World {
             characters: Vec::new(),
             props: Vec::new(),
             attachments: Vec::new(),
+            prop_joints: Vec::new(),
             frame: Frame::default(),
             watch: Watch::default(),
         }
@@ -100,9 +103,11 @@ impl World {
         for prop in &mut self.props {
             prop.prepare(&mut self.engine, step_secs);
         }
+        self.prepare_prop_joints();
         self.engine.step();
         self.forget_forces();
         self.break_attachments();
+        self.break_prop_joints();
         self.frame.step += 1;
         self.frame.time_secs = self.frame.step as f64 * step_secs;
         self.look();
@@ -221,16 +226,32 @@ impl World {
         }
     }
 
-    /// Factor on gravity for a character.
+    /// Factor on gravity for all parts of a character.
     pub fn set_gravity(&mut self, character: usize, scale: f64) {
+        for node in Node::ALL {
+            self.set_part_gravity(character, node, scale);
+        }
+    }
+
+    /// Factor on gravity for one part of a character.
+    pub fn set_part_gravity(&mut self, character: usize, node: Node, scale: f64) {
         let Some(character) = self.characters.get_mut(character) else { return };
         let Some(scale) = sound::gravity_scale(scale) else { return };
-        character.gravity_scale = scale;
-        for handle in character.bodies {
-            if let Some(body) = self.engine.bodies.get_mut(handle) {
-                body.set_gravity_scale(scale, true);
-            }
+        character.gravity_scales[node.index()] = scale;
+        if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
+            body.set_gravity_scale(scale, true);
         }
+    }
+
+    /// Factor on gravity for a part of a character, as it is now.
+    pub fn part_gravity(&self, character: usize, node: Node) -> f64 {
+        self.characters.get(character).map_or(1.0, |one| one.gravity_scales[node.index()])
+    }
+
+    /// Factor on gravity for a prop, as it is now.
+    pub fn prop_gravity(&self, prop: usize) -> f64 {
+        let body = self.props.get(prop).and_then(|prop| self.engine.bodies.get(prop.handle));
+        body.map_or(1.0, RigidBody::gravity_scale)
     }
 
     /// Gives a part another collision shape, its own again with `own`, or none at all. Its mass stays; its inertia is that of the

@@ -85,13 +85,17 @@ pub(super) struct Plane {
     seconds: Option<PyObjectRef>,
 }
 
-/// `(scale, seconds=None)`.
+/// `(scale, seconds=None, over=None, part=None)`.
 #[derive(FromArgs)]
 pub(super) struct Gravity {
     #[pyarg(any)]
     scale: PyObjectRef,
     #[pyarg(any, default)]
     seconds: Option<PyObjectRef>,
+    #[pyarg(any, default)]
+    over: Option<PyObjectRef>,
+    #[pyarg(any, default)]
+    part: Option<PyUtf8StrRef>,
 }
 
 /// `(part, shape, seconds=None)`.
@@ -193,7 +197,13 @@ pub(super) fn push(vm: &VirtualMachine, place: usize, push: Push) -> PyResult<()
     let force_n = three(vm, &push.force, "force")?;
     let for_secs = seconds(vm, Some(&push.seconds))?.unwrap_or(0.0);
     act(vm, place, |stage| {
-        Ok(Action::Push { on: stage.part_name(place, push.part.as_str())?, force_n, for_secs, facing: push.facing })
+        Ok(Action::Push {
+            on: stage.part_name(place, push.part.as_str())?,
+            force_n,
+            for_secs,
+            facing: push.facing,
+            at_m: None,
+        })
     })
 }
 
@@ -232,7 +242,11 @@ pub(super) fn free_plane(vm: &VirtualMachine, place: usize) -> PyResult<()> {
 pub(super) fn gravity(vm: &VirtualMachine, place: usize, gravity: Gravity) -> PyResult<()> {
     let scale = number(vm, &gravity.scale, "scale")?;
     let for_secs = seconds(vm, gravity.seconds.as_ref())?;
-    act(vm, place, |_| Ok(Action::Gravity { scale, on: None, for_secs }))
+    let over_secs = seconds(vm, gravity.over.as_ref())?;
+    act(vm, place, |stage| {
+        let part = gravity.part.map(|part| stage.part_name(place, part.as_str())).transpose()?;
+        Ok(Action::Gravity { scale, on: None, part, over_secs, for_secs })
+    })
 }
 
 pub(super) fn shape(vm: &VirtualMachine, place: usize, shape: Shape) -> PyResult<()> {

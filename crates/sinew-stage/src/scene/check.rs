@@ -49,6 +49,14 @@ impl SceneSpec {
         for (prop, spec) in &self.props {
             new_name(&["props", prop], prop)?;
             spec.check(prop)?;
+            if let Some(controller) = &spec.controller {
+                let names = self.controllers.keys().map(String::as_str);
+                name(&["props", prop, "controller"], "controller", controller, names)?;
+            }
+        }
+        for (joint, spec) in &self.joints {
+            new_name(&["joints", joint], joint)?;
+            spec.check(joint, self)?;
         }
         for (controller, spec) in &self.controllers {
             new_name(&["controllers", controller], controller)?;
@@ -63,6 +71,7 @@ impl SceneSpec {
         count(&["shapes"], self.shapes.len(), 1_000)?;
         count(&["characters"], self.characters.len(), 256)?;
         count(&["props"], self.props.len(), 1_000)?;
+        count(&["joints"], self.joints.len(), 1_000)?;
         count(&["poses"], self.poses.len(), 1_000)?;
         count(&["graphs"], self.graphs.len(), 200)?;
         count(&["controllers"], self.controllers.len(), 64)?;

@@ -78,13 +78,14 @@ impl SceneSpec {
                 part(link)?;
                 self.holdable(object)
             }
-            A::Push { on, force_n, for_secs, facing } => {
+            A::Push { on, force_n, for_secs, facing, at_m } => {
                 match command.character {
                     Some(_) => part(on)?,
                     None if *facing => return Err("only a character has a facing; name it with character".to_owned()),
                     None => self.prop(on)?,
                 }
                 three("force_n", *force_n, sinew_world::MAX_FORCE_N)?;
+                three("at_m", at_m.unwrap_or_default(), 1e3)?;
                 secs(Some(*for_secs))
             }
             A::Gain { factor, part: only } => {
@@ -106,15 +107,29 @@ impl SceneSpec {
                 secs(*for_secs)
             }
             A::PlaneOff {} | A::Layer { .. } => self.owner(command).map(drop),
-            A::Gravity { scale, on, for_secs } => {
+            A::Gravity { scale, on, part: only, over_secs, for_secs } => {
                 match (&command.character, on) {
                     (Some(_), Some(_)) => return Err("`on` is for objects; remove it or `character`".to_owned()),
                     (None, Some(object)) => self.prop(object)?,
                     (_, None) => drop(self.owner(command)?),
                 }
+                if let Some(only) = only {
+                    part(only)?;
+                }
                 within("scale", *scale, -100.0..=100.0)?;
+                within("over_secs", over_secs.unwrap_or(0.0), 0.0..=MOST_SECS)?;
                 secs(*for_secs)
             }
+            A::Motor { joint, speed_rad_s, angle_deg, speed_m_s, shift_m } => {
+                let stated = [
+                    ("speed_rad_s", *speed_rad_s),
+                    ("angle_deg", *angle_deg),
+                    ("speed_m_s", *speed_m_s),
+                    ("shift_m", *shift_m),
+                ];
+                self.check_motor(joint, stated)
+            }
+            A::Cut { joint } => self.joint(joint).map(drop),
             A::Shape { part: name, shape, for_secs } => {
                 part(name)?;
                 one_of("shape", shape, &mut self.shapes.keys().map(String::as_str).chain(["own", "none"]))?;

@@ -26,7 +26,7 @@ const MOST_FILES_BYTES: u64 = 512 << 20;
 const DEEPEST: usize = 32;
 
 /// Tables whose entries have names that the scene chooses: a misspelt one would be a new entry, not an unknown key.
-const NAMED: [&str; 6] = ["characters", "props", "shapes", "poses", "graphs", "controllers"];
+const NAMED: [&str; 8] = ["characters", "props", "ropes", "joints", "shapes", "poses", "graphs", "controllers"];
 
 /// A scene's table and the texts that it came from.
 #[derive(Debug)]

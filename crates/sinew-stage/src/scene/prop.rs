@@ -46,6 +46,10 @@ pub struct PropSpec {
     pub sensor: bool,
     /// Factor on gravity; 1 when left out.
     pub gravity_scale: Option<f64>,
+    /// What air takes of its velocity and of its turning, relative to them \[1/s\].
+    pub drag_per_s: f64,
+    /// A Python controller that runs from the start, by name.
+    pub controller: Option<String>,
     /// Its colour in pictures, `#rrggbb`.
     pub colour: Option<String>,
 }
@@ -85,6 +89,7 @@ impl PropSpec {
             spin: self.spin_rad_s.into(),
             is_sensor: self.sensor,
             gravity_scale: self.gravity_scale.unwrap_or(1.0),
+            drag_per_s: self.drag_per_s,
             ..usual
         })
     }
@@ -139,6 +144,7 @@ impl PropSpec {
         vector(&at("velocity_m_s"), self.velocity_m_s, 1e3, "metres a second are expected")?;
         vector(&at("spin_rad_s"), self.spin_rad_s, 1e3, "radians a second are expected")?;
         number(&at("gravity_scale"), self.gravity_scale.unwrap_or(1.0), -100.0..=100.0, "1 is as on Earth")?;
+        number(&at("drag_per_s"), self.drag_per_s, 0.0..=1e3, "0 is a vacuum, 1 halves a speed in 0.7 s")?;
         colour(&at("colour"), self.colour.as_deref())
     }
 }

@@ -88,6 +88,7 @@ impl Scene {
             Ok(spec) => spec,
             Err(error) => return Err(document.place(files, wording::fault(error))),
         };
+        spec.lay_ropes().map_err(|fault| document.place(files, fault))?;
         spec.check().map_err(|fault| document.place(files, fault))?;
         for (path, file, kind, most_bytes) in named_files(&spec) {
             let held = super::files::allowed(&file).and_then(|()| of_kind(&file, &kind));

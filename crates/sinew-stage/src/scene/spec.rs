@@ -1,6 +1,9 @@
 //! The whole scene file as it is written.
 
-use super::{CameraSpec, CharacterSpec, ControllerSpec, KeyBinding, PropSpec, Reaction, ShapeSpec, StageSpec, Timed};
+use super::{
+    CameraSpec, CharacterSpec, ControllerSpec, KeyBinding, PropJointSpec, PropSpec, Reaction, RopeSpec, ShapeSpec,
+    StageSpec, Timed,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_control::{GraphSpec, PoseSpec};
@@ -31,6 +34,12 @@ pub struct SceneSpec {
     /// Props by name.
     #[serde(default)]
     pub props: BTreeMap<String, PropSpec>,
+    /// Ropes by name; their pieces are props.
+    #[serde(default)]
+    pub ropes: BTreeMap<String, RopeSpec>,
+    /// Joints of props by name.
+    #[serde(default)]
+    pub joints: BTreeMap<String, PropJointSpec>,
     /// Key poses by name, those of `stage.pose_files` included.
     #[serde(default)]
     pub poses: BTreeMap<String, PoseSpec>,

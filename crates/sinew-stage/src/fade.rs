@@ -1,0 +1,67 @@
+//! Gravity that changes over a time: balloons that fill, characters that grow light.
+
+use crate::Stage;
+use crate::stage::step_of;
+use sinew_body::humanoid::Node;
+
+/// Something that gravity acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Weighs {
+    /// A part of a character.
+    Part(usize, Node),
+    /// A prop.
+    Prop(usize),
+}
+
+/// A factor on gravity on its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fade {
+    what: Weighs,
+    from: f64,
+    to: f64,
+    begin_step: u64,
+    end_step: u64,
+}
+
+impl Stage {
+    /// Brings factors on gravity to a value, over a time or at once. Whatever was on its way stops.
+    pub(crate) fn weigh(&mut self, things: &[Weighs], scale: f64, over_secs: Option<f64>) {
+        let step = self.world.frame().step;
+        let steps = over_secs.map_or(0, |secs| step_of(secs, self.world.settings().step_secs()));
+        for &what in things {
+            self.spans.fades.retain(|fade| fade.what != what);
+            if steps == 0 {
+                self.set_scale(what, scale);
+                continue;
+            }
+            let from = match what {
+                Weighs::Part(character, node) => self.world.part_gravity(character, node),
+                Weighs::Prop(prop) => self.world.prop_gravity(prop),
+            };
+            let end_step = step.saturating_add(steps);
+            self.spans.fades.push(Fade { what, from, to: scale, begin_step: step, end_step });
+        }
+    }
+
+    /// What is on its way goes on by a step.
+    pub(crate) fn fade_on(&mut self, step: u64) {
+        if self.spans.fades.is_empty() {
+            return;
+        }
+        let mut fades = std::mem::take(&mut self.spans.fades);
+        for fade in &fades {
+            let done = (step + 1).saturating_sub(fade.begin_step) as f64;
+            let share = (done / (fade.end_step - fade.begin_step) as f64).min(1.0);
+            self.set_scale(fade.what, fade.from + (fade.to - fade.from) * share);
+        }
+        fades.retain(|fade| step + 1 < fade.end_step);
+        self.spans.fades = fades;
+    }
+
+    fn set_scale(&mut self, what: Weighs, scale: f64) {
+        match what {
+            Weighs::Part(character, node) => self.world.set_part_gravity(character, node, scale),
+            Weighs::Prop(prop) => self.world.set_prop_gravity(prop, scale),
+        }
+    }
+}

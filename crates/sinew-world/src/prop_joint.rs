@@ -1,0 +1,335 @@
+//! Joints that fasten props: to each other, to the ground, to a part of a character.
+//!
+//! Hinges are written anew for each step: the solver sees no angle at the step's start, and a stop only when a step can reach it.
+//! So no mathematics of the platform takes part, and a wheel may turn for ever.
+
+use crate::joint::stop_at;
+use crate::rows::joint_impulse;
+use crate::{Entity, SpecError, World, sound};
+use glam::{DQuat, DVec3};
+use rapier3d_f64::prelude::*;
+
+/// A joint to be made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PropJointSpec {
+    /// What it fastens to what; [`Entity::Floor`] is the world itself.
+    pub between: [Entity; 2],
+    /// Where it is fastened to the first and to the second, in the world as the two lie now \[m\]. Only for ropes and springs the
+    /// two points differ; for the others the first counts.
+    pub anchors: [DVec3; 2],
+    /// What it leaves free.
+    pub kind: PropJointKind,
+    /// What drives it; only hinges and sliders can be driven.
+    pub motor: Option<Motor>,
+    /// Breaks above this force \[N\].
+    pub break_force_n: Option<f64>,
+    /// The two push each other where they touch.
+    pub touches: bool,
+}
+
+/// What a joint leaves free.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PropJointKind {
+    /// Nothing.
+    Fixed,
+    /// All turns.
+    Ball,
+    /// Turns of the second against the first about an axis of the world as they lie now; `range` \[rad\] from there.
+    Hinge {
+        /// The axis.
+        axis: DVec3,
+        /// How far it turns: from at most 0 to at least 0, within ±3 rad.
+        range: Option<[f64; 2]>,
+    },
+    /// Shifts of the second against the first along an axis of the world as they lie now; `range` \[m\] from there.
+    Slider {
+        /// The axis.
+        axis: DVec3,
+        /// How far it slides: from at most 0 to at least 0.
+        range: Option<[f64; 2]>,
+    },
+    /// Everything up to a distance of the anchors.
+    Rope {
+        /// The distance \[m\].
+        length_m: f64,
+    },
+    /// Everything, against a spring between the anchors.
+    Spring {
+        /// Its length at rest \[m\].
+        length_m: f64,
+        /// \[N/m\].
+        stiffness_n_m: f64,
+        /// \[N s/m\].
+        damping_n_s_m: f64,
+    },
+}
+
+/// What drives a hinge or a slider.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motor {
+    /// What it aims at.
+    pub aim: Aim,
+    /// Largest torque \[N m\], or force \[N\] of a slider.
+    pub strength: f64,
+}
+
+/// What a motor aims at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Aim {
+    /// A speed \[rad/s, m/s\].
+    Speed(f64),
+    /// A place \[rad, m\] from where the joint was made; it is there after about a third of a second.
+    Place(f64),
+}
+
+/// How a joint stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PropJointState {
+    /// It has neither been cut nor broken.
+    pub is_whole: bool,
+    /// Of a hinge its angle \[rad\], of a slider its shift \[m\], from where the joint was made; else the anchors' distance \[m\].
+    pub place: f64,
+    /// How fast that changes \[rad/s, m/s\].
+    pub speed: f64,
+}
+
+/// How far off its speed a motor gives all its strength \[rad/s, m/s\].
+const FULL_AT_SPEED: f64 = 0.1;
+
+/// How far off its place a motor gives all its strength \[rad, m\].
+const FULL_AT_PLACE: f64 = 0.1;
+
+/// Damping of a motor that aims at a place, over its stiffness \[s\].
+const PLACE_SECS: f64 = 0.1;
+
+/// Joints of props in a world.
+const MOST_JOINTS: usize = 10_000;
+
+pub(crate) struct PropJoint {
+    spec: PropJointSpec,
+    /// `None` once it is cut.
+    handle: Option<ImpulseJointHandle>,
+    bodies: [RigidBodyHandle; 2],
+    /// Its frames in the two bodies, as it was made.
+    frames: [Pose; 2],
+}
+
+impl World {
+    /// Fastens two things as they lie now. Returns the joint's number.
+    ///
+    /// # Errors
+    /// When the two are the same or not there, a number is not sound, or a motor drives what cannot be driven.
+    pub fn add_prop_joint(&mut self, spec: PropJointSpec) -> Result<usize, SpecError> {
+        if !is_sound(&spec) || self.prop_joints.len() >= MOST_JOINTS {
+            return Err(SpecError::NoJoint);
+        }
+        let (Some(one), Some(other)) = (self.handle(spec.between[0]), self.handle(spec.between[1])) else {
+            return Err(SpecError::NoJoint);
+        };
+        let (Some(a), Some(b)) = (self.engine.bodies.get(one), self.engine.bodies.get(other)) else {
+            return Err(SpecError::NoJoint);
+        };
+        if one == other {
+            return Err(SpecError::NoJoint);
+        }
+        let rotation = match spec.kind {
+            PropJointKind::Hinge { axis, .. } | PropJointKind::Slider { axis, .. } => {
+                DQuat::from_rotation_arc(DVec3::X, axis.normalize())
+            }
+            _ => DQuat::IDENTITY,
+        };
+        let second = match spec.kind {
+            PropJointKind::Rope { .. } | PropJointKind::Spring { .. } => spec.anchors[1],
+            _ => spec.anchors[0],
+        };
+        let frames = [
+            a.position().inverse() * Pose::from_parts(spec.anchors[0], rotation),
+            b.position().inverse() * Pose::from_parts(second, rotation),
+        ];
+        let mut joint = base(&spec.kind);
+        joint.set_contacts_enabled(spec.touches);
+        joint.set_local_frame1(frames[0]);
+        joint.set_local_frame2(frames[1]);
+        let handle = self.engine.joints.insert(one, other, joint, true);
+        self.prop_joints.push(PropJoint { spec, handle: Some(handle), bodies: [one, other], frames });
+        Ok(self.prop_joints.len() - 1)
+    }
+
+    /// Drives a hinge or a slider from now on, or lets it go with `None`. Nothing happens for other joints and for numbers that are
+    /// not sound.
+    pub fn set_prop_motor(&mut self, joint: usize, motor: Option<Motor>) {
+        let Some(joint) = self.prop_joints.get_mut(joint) else { return };
+        if motor.is_none_or(|motor| is_motor(&motor, &joint.spec.kind)) {
+            joint.spec.motor = motor;
+        }
+    }
+
+    /// What drives a joint.
+    pub fn prop_motor(&self, joint: usize) -> Option<Motor> {
+        self.prop_joints.get(joint)?.spec.motor
+    }
+
+    /// Cuts a joint for good. False when it was cut or broken before, or is none.
+    pub fn cut_prop_joint(&mut self, joint: usize) -> bool {
+        let Some(handle) = self.prop_joints.get_mut(joint).and_then(|joint| joint.handle.take()) else { return false };
+        self.engine.joints.remove(handle, true);
+        true
+    }
+
+    /// How a joint stands now. One that is none is not whole.
+    pub fn prop_joint(&self, joint: usize) -> PropJointState {
+        let Some(joint) = self.prop_joints.get(joint) else { return PropJointState::default() };
+        let bodies = joint.bodies.map(|handle| self.engine.bodies.get(handle));
+        let [Some(one), Some(other)] = bodies else { return PropJointState::default() };
+        let (place, speed) = joint.place(one, other);
+        PropJointState { is_whole: joint.handle.is_some(), place, speed }
+    }
+
+    /// Hands the joints of props to the solver.
+    pub(crate) fn prepare_prop_joints(&mut self) {
+        for joint in &self.prop_joints {
+            joint.prepare(&mut self.engine.joints, &self.engine.bodies);
+        }
+    }
+
+    /// Breaks the joints that bore too much in the last step.
+    pub(crate) fn break_prop_joints(&mut self) {
+        let sub_step_secs = self.settings.step_secs() / self.engine.parameters.num_solver_iterations as f64;
+        let (joints, bodies) = (&mut self.engine.joints, &self.engine.bodies);
+        for prop_joint in &mut self.prop_joints {
+            let (Some(limit), Some(handle)) = (prop_joint.spec.break_force_n, prop_joint.handle) else { continue };
+            let Some(joint) = joints.get(handle) else { continue };
+            let impulse = match prop_joint.spec.kind {
+                PropJointKind::Rope { .. } => joint.data.limits[0].impulse.abs(),
+                PropJointKind::Spring { .. } => joint.data.motors[0].impulse.abs(),
+                _ => joint_impulse(joint, bodies).length(),
+            };
+            if impulse / sub_step_secs > limit {
+                joints.remove(handle, true);
+                prop_joint.handle = None;
+            }
+        }
+    }
+}
+
+impl PropJoint {
+    fn prepare(&self, joints: &mut ImpulseJointSet, bodies: &RigidBodySet) {
+        let Some(handle) = self.handle else { return };
+        let [Some(one), Some(other)] = self.bodies.map(|handle| bodies.get(handle)) else { return };
+        // What hangs or swings slowly is slower than any threshold of sleep.
+        let Some(joint) = joints.get_mut(handle, true) else { return };
+        let (range, axis) = match self.spec.kind {
+            PropJointKind::Hinge { range, .. } => (range, JointAxis::AngX),
+            PropJointKind::Slider { range, .. } => (range, JointAxis::LinX),
+            _ => return,
+        };
+        let (place, _) = self.place(one, other);
+        let data = &mut joint.data;
+        // Where the solver's own zero lies.
+        let zero = if axis == JointAxis::AngX {
+            let (sin, cos) = libm::sincos(place / 2.0);
+            data.local_frame2.rotation = self.frames[1].rotation * DQuat::from_xyzw(-sin, 0.0, 0.0, cos);
+            if let Some([low, high]) = range {
+                let (room, sign) = if high - place < place - low { (high - place, 1.0) } else { (place - low, -1.0) };
+                stop_at(data, axis, room, sign);
+            }
+            place
+        } else {
+            0.0
+        };
+        match self.spec.motor {
+            None => data.motor_axes.remove(JointAxesMask::from(axis)),
+            Some(motor) => {
+                data.set_motor_model(axis, MotorModel::ForceBased);
+                data.set_motor_max_force(axis, motor.strength);
+                match motor.aim {
+                    Aim::Speed(speed) => data.set_motor(axis, 0.0, speed, 0.0, motor.strength / FULL_AT_SPEED),
+                    Aim::Place(wanted) => {
+                        let stiffness = motor.strength / FULL_AT_PLACE;
+                        data.set_motor(axis, wanted - zero, 0.0, stiffness, stiffness * PLACE_SECS)
+                    }
+                };
+            }
+        }
+    }
+
+    /// Place and speed, as [`PropJointState`] has them.
+    fn place(&self, one: &RigidBody, other: &RigidBody) -> (f64, f64) {
+        let [a, b] = [*one.position() * self.frames[0], *other.position() * self.frames[1]];
+        match self.spec.kind {
+            PropJointKind::Hinge { .. } => {
+                let local = a.rotation.conjugate() * b.rotation;
+                let sign = if local.w < 0.0 { -1.0 } else { 1.0 };
+                let angle = 2.0 * libm::atan2(local.x * sign, local.w * sign);
+                (angle, (a.rotation * DVec3::X).dot(other.angvel() - one.angvel()))
+            }
+            kind => {
+                let apart = b.translation - a.translation;
+                let along = match kind {
+                    PropJointKind::Slider { .. } => a.rotation * DVec3::X,
+                    _ => apart.normalize_or_zero(),
+                };
+                let slip = other.velocity_at_point(b.translation) - one.velocity_at_point(b.translation);
+                (apart.dot(along), slip.dot(along))
+            }
+        }
+    }
+}
+
+/// The part of the library's joint that stays.
+fn base(kind: &PropJointKind) -> GenericJoint {
+    match *kind {
+        PropJointKind::Fixed => GenericJointBuilder::new(JointAxesMask::LIN_AXES | JointAxesMask::ANG_AXES).build(),
+        PropJointKind::Ball => GenericJointBuilder::new(JointAxesMask::LIN_AXES).build(),
+        PropJointKind::Hinge { .. } => {
+            GenericJointBuilder::new(JointAxesMask::LIN_AXES | JointAxesMask::ANG_Y | JointAxesMask::ANG_Z).build()
+        }
+        PropJointKind::Slider { range, .. } => {
+            let locked = JointAxesMask::LIN_Y | JointAxesMask::LIN_Z | JointAxesMask::ANG_AXES;
+            let joint = GenericJointBuilder::new(locked);
+            range.map_or(joint, |range| joint.limits(JointAxis::LinX, range)).build()
+        }
+        PropJointKind::Rope { length_m } => GenericJointBuilder::new(JointAxesMask::empty())
+            .coupled_axes(JointAxesMask::LIN_AXES)
+            .limits(JointAxis::LinX, [0.0, length_m])
+            .build(),
+        PropJointKind::Spring { length_m, stiffness_n_m, damping_n_s_m } => {
+            GenericJointBuilder::new(JointAxesMask::empty())
+                .coupled_axes(JointAxesMask::LIN_AXES)
+                .motor_model(JointAxis::LinX, MotorModel::ForceBased)
+                .set_motor(JointAxis::LinX, length_m, 0.0, stiffness_n_m, damping_n_s_m)
+                .build()
+        }
+    }
+}
+
+fn is_sound(spec: &PropJointSpec) -> bool {
+    let gain = |gain: f64| (0.0..1e9).contains(&gain);
+    let length = |length: f64| (0.0..sound::FARTHEST_M).contains(&length);
+    let axis = |axis: DVec3| axis.is_finite() && axis.length() > 1e-6;
+    let around_zero = |range: Option<[f64; 2]>, most: f64| {
+        range.is_none_or(|[low, high]| (-most..=0.0).contains(&low) && (0.0..=most).contains(&high) && low < high)
+    };
+    let kind = match spec.kind {
+        PropJointKind::Fixed | PropJointKind::Ball => true,
+        PropJointKind::Hinge { axis: about, range } => axis(about) && around_zero(range, 3.0),
+        PropJointKind::Slider { axis: along, range } => axis(along) && around_zero(range, sound::FARTHEST_M),
+        PropJointKind::Rope { length_m } => length(length_m) && length_m > 1e-4,
+        PropJointKind::Spring { length_m, stiffness_n_m, damping_n_s_m } => {
+            length(length_m) && gain(stiffness_n_m) && gain(damping_n_s_m) && stiffness_n_m + damping_n_s_m > 0.0
+        }
+    };
+    kind && spec.anchors.into_iter().all(sound::is_place)
+        && spec.break_force_n.is_none_or(|force| force > 0.0)
+        && spec.motor.is_none_or(|motor| is_motor(&motor, &spec.kind))
+}
+
+fn is_motor(motor: &Motor, kind: &PropJointKind) -> bool {
+    let aim = match motor.aim {
+        Aim::Speed(speed) => speed.abs() <= sound::MAX_SPEED_M_S,
+        Aim::Place(place) => place.abs() <= sound::FARTHEST_M,
+    };
+    aim && (0.0..=crate::MAX_FORCE_N).contains(&motor.strength)
+        && motor.strength > 0.0
+        && matches!(kind, PropJointKind::Hinge { .. } | PropJointKind::Slider { .. })
+}
