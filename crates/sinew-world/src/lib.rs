@@ -36,5 +36,5 @@ pub use ragdoll::{hips_over_soles_m, never_collide, outboard_inertias, part_soli
 pub use settings::{Surface, WorldSettings};
 pub use solid::{Form, RING_PIECES, Solid, ring_corners};
 pub use spec::{CharacterSpec, Motion, PropSpec, SpecError};
-pub use support::margin;
+pub use support::{keep_hull, margin};
 pub use world::{MAX_FORCE_N, PartShape, World};

@@ -10,7 +10,7 @@ use crate::solid::Form;
 use crate::{CharacterSpec, Drive, Entity, Solid, SpecError, Surface, sound};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
-use sinew_body::humanoid::{Body, Node, Pose as BodyPose};
+use sinew_body::humanoid::{Body, Node, Pose as BodyPose, Sole};
 
 /// Smallest moment of inertia of a part, relative to the body's mass times its stature squared \[1\]: about 0.009 kg m² for
 /// 80 kg and 1.7 m. A collar bone or a foot alone has a tenth of that, and springs that hold a whole body
@@ -41,20 +41,16 @@ pub fn part_solid(body: &Body, node: Node) -> Solid {
 
 /// A sole: a box under the ankle, from the heel to the tip of the toes.
 fn foot(body: &Body, node: Node) -> Solid {
-    let shape = body.link(node).shape;
-    let tip = body.link(node).tip;
-    let breadth = 1.2 * (shape.from_radius_m + shape.to_radius_m);
-    let sole = sole_m(body, node);
-    let height = 0.6 * sole;
-    let (heel, toes) = (-0.28 * tip.z.max(0.05), tip.z.max(0.05) + 0.3 * shape.to_radius_m);
-    let size_m = DVec3::new(breadth, height, toes - heel);
-    Solid::new(Form::Box { size_m }).at(DVec3::new(tip.x * 0.5, -sole + height / 2.0, (heel + toes) / 2.0))
+    let sole = Sole::of(body, node);
+    let height = 0.6 * sole.ankle_m;
+    let size_m = DVec3::new(sole.breadth_m, height, sole.toes_m - sole.heel_m);
+    let centre = DVec3::new(sole.middle_m, -sole.ankle_m + height / 2.0, (sole.heel_m + sole.toes_m) / 2.0);
+    Solid::new(Form::Box { size_m }).at(centre)
 }
 
 /// Height of the ankle over the sole \[m\].
 pub fn sole_m(body: &Body, node: Node) -> f64 {
-    let link = body.link(node);
-    (-link.tip.y).max(0.0) + link.shape.to_radius_m
+    Sole::of(body, node).ankle_m
 }
 
 /// How far the hips of a pose lie above the lowest point of the soles \[m\].

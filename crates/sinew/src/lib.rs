@@ -13,6 +13,8 @@
 //! | [`stage`] | scenes that run, takes |
 //! | [`picture`] | filmstrips and plots |
 //! | [`respond`] | the whole job of `sinew respond`: a file in, an answered file out |
+//! | [`reaching`] | somebody reaches a target: a source of poses |
+//! | [`reach`] | the whole job of `sinew reach`: a target in, a motion out |
 //! | [`run`] | the whole job of `sinew run`: a scene in, motion, picture and report out |
 //! | `session` | `sinew serve` and `sinew join`: one stage, actors on several machines (feature `session`) |
 //! | [`sample`] | a walk that Sinew makes itself |
@@ -22,6 +24,7 @@ pub use sinew_body as body;
 pub use sinew_control as control;
 pub use sinew_motion as motion;
 pub use sinew_picture as picture;
+pub use sinew_reach as reaching;
 pub use sinew_response as response;
 pub use sinew_script as script;
 pub use sinew_stage as stage;
@@ -29,6 +32,7 @@ pub use sinew_world as world;
 
 pub mod figure;
 pub mod inspect;
+pub mod reach;
 pub mod respond;
 pub mod run;
 pub mod sample;

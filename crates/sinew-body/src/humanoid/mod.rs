@@ -11,6 +11,7 @@ mod overlay;
 mod pose;
 mod reduction;
 mod rotation;
+mod sole;
 
 pub use body::{Body, Link, Shape};
 pub use leg::{LegPose, shift_within_reach, solve_leg};
@@ -21,3 +22,4 @@ pub use overlay::{Deviation, Overlay};
 pub use pose::Pose;
 pub use reduction::{Person, Reduction, ReductionError};
 pub use rotation::{exp, log, swing_twist};
+pub use sole::Sole;

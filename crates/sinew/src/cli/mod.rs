@@ -6,6 +6,7 @@ mod inspect;
 mod join;
 mod output;
 mod push_argument;
+mod reach;
 mod respond;
 mod run;
 #[cfg(feature = "session")]
@@ -15,6 +16,7 @@ mod session;
 use clap::{Parser, Subcommand};
 use sinew::body::humanoid::ReductionError;
 use sinew::motion::formats::ReadOptions;
+use sinew::reach::ReachError;
 use sinew::respond::RespondError;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -35,6 +37,8 @@ enum Command {
     Convert(convert::Convert),
     /// Push a character and get back how it yields and recovers.
     Respond(respond::Respond),
+    /// Make somebody reach for a target with arms, spine, head and legs.
+    Reach(reach::Reach),
     /// Run a scene: characters in a physical world.
     Run(run::Run),
     /// Play a take again, bit for bit, or with other values.
@@ -91,6 +95,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Inspect(command) => command.run(),
         Command::Convert(command) => command.run(),
         Command::Respond(command) => command.run(),
+        Command::Reach(command) => command.run(),
         Command::Run(command) => command.run(),
         Command::Replay(command) => command.run(),
         #[cfg(feature = "session")]
@@ -113,8 +118,11 @@ pub(crate) fn run() -> ExitCode {
 
 /// Whether an error is about what was asked for, whatever the file.
 fn is_wrong_usage(error: &anyhow::Error) -> bool {
-    matches!(
-        error.downcast_ref::<RespondError>(),
-        Some(RespondError::Settings(_) | RespondError::Body(ReductionError::Person { .. }))
-    )
+    let responds = error.downcast_ref::<RespondError>();
+    let reaches = error.downcast_ref::<ReachError>();
+    matches!(responds, Some(RespondError::Settings(_) | RespondError::Body(ReductionError::Person { .. })))
+        || matches!(
+            reaches,
+            Some(ReachError::Style(_) | ReachError::Target(_) | ReachError::Body(ReductionError::Person { .. }))
+        )
 }

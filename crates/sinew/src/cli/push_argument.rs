@@ -81,7 +81,7 @@ fn number(text: &str, what: &str) -> Result<f64, String> {
     if value.abs() > LARGEST { Err(format!("{what}: {text} is more than {LARGEST:e}")) } else { Ok(value) }
 }
 
-fn vector(text: &str, what: &str) -> Result<DVec3, String> {
+pub(super) fn vector(text: &str, what: &str) -> Result<DVec3, String> {
     let parts: Vec<f64> = text.split(':').map(|part| number(part, what)).collect::<Result<_, _>>()?;
     match parts[..] {
         [x, y, z] => Ok(DVec3::new(x, y, z)),

@@ -1,0 +1,211 @@
+//! Where the feet are: planted, or on their way in a step; and what they carry.
+
+use crate::glide::{Glide, arc, eased};
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Node, Sole};
+
+/// A foot flat on the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// The ankle \[m\].
+    pub ankle: DVec3,
+    /// Where the toes point \[rad about +Y from +Z to +X\].
+    pub yaw_rad: f64,
+}
+
+/// A foot on its way from one placement to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stride {
+    /// 0 left, 1 right.
+    pub side: usize,
+    /// Where it lands.
+    pub to: Placement,
+    /// When it leaves \[s\].
+    pub start_secs: f64,
+    /// How long it is off the floor \[s\].
+    pub for_secs: f64,
+    /// How high the ankle rises on the way \[m\].
+    pub lift_m: f64,
+}
+
+/// What two planted feet carry: the centre of mass may be within a disc.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// Its middle, on the floor \[m\].
+    pub centre: DVec3,
+    /// Where the centre of mass is at rest, a little behind the middle \[m\].
+    pub rest: DVec3,
+    /// Radius of the largest disc about the middle inside the soles' hull \[m\].
+    pub radius_m: f64,
+    /// Where the pelvis faces: the mean of the feet \[rad\].
+    pub yaw_rad: f64,
+}
+
+/// Most strides that are planned ahead.
+pub const MOST_STRIDES: usize = 96;
+
+/// Both feet over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Feet {
+    soles: [Sole; 2],
+    /// Where they were before the strides.
+    pub(crate) planted: [Placement; 2],
+    strides: Vec<Stride>,
+    /// What is left of where the feet were when the reach began: shift \[m\] and turn (world) of each.
+    pub(crate) rests: [(Glide<DVec3>, Glide<DVec3>); 2],
+    linear: bool,
+}
+
+impl Feet {
+    /// Feet that stand.
+    pub fn new(body: &Body, planted: [Placement; 2], linear: bool) -> Feet {
+        Feet {
+            soles: [Node::LeftFoot, Node::RightFoot].map(|foot| Sole::of(body, foot)),
+            planted,
+            strides: Vec::with_capacity(MOST_STRIDES),
+            rests: [(Glide::rest(DVec3::ZERO), Glide::rest(DVec3::ZERO)); 2],
+            linear,
+        }
+    }
+
+    /// The strides that are planned or under way.
+    pub fn strides(&self) -> &[Stride] {
+        &self.strides
+    }
+
+    /// Adds a stride after the others. False when there are too many.
+    pub(crate) fn push(&mut self, stride: Stride) -> bool {
+        let fits = self.strides.len() < MOST_STRIDES;
+        if fits {
+            self.strides.push(stride);
+        }
+        fits
+    }
+
+    /// Forgets strides that have not begun.
+    pub(crate) fn stop(&mut self, secs: f64) {
+        self.strides.retain(|stride| stride.start_secs <= secs);
+    }
+
+    /// Takes strides that are over into the planted feet.
+    pub(crate) fn settle(&mut self, secs: f64) {
+        let planted = &mut self.planted;
+        self.strides.retain(|stride| {
+            let is_over = stride.start_secs + stride.for_secs <= secs;
+            if is_over {
+                planted[stride.side] = stride.to;
+            }
+            !is_over
+        });
+    }
+
+    /// When the last foot lands \[s\]; none when all stand.
+    pub fn lands_secs(&self) -> Option<f64> {
+        self.strides.iter().map(|stride| stride.start_secs + stride.for_secs).reduce(f64::max)
+    }
+
+    /// Whether both feet stand at a time \[s\], and those of the start have come to rest.
+    pub fn stand(&self, secs: f64) -> bool {
+        let is_off = |stride: &Stride| stride.start_secs < secs && secs < stride.start_secs + stride.for_secs;
+        !self.strides.iter().any(is_off)
+            && self.rests.iter().all(|(shift, turn)| secs >= shift.end_secs() && secs >= turn.end_secs())
+    }
+
+    /// Where both feet stand when all strides are over.
+    pub fn last(&self) -> [Placement; 2] {
+        let mut planted = self.planted;
+        for stride in &self.strides {
+            planted[stride.side] = stride.to;
+        }
+        planted
+    }
+
+    /// A foot's ankle \[m\] and `world_from_foot` at a time \[s\].
+    pub fn foot(&self, side: usize, secs: f64) -> (DVec3, DQuat) {
+        let mut at = self.planted[side];
+        for stride in self.strides.iter().filter(|stride| stride.side == side) {
+            let share = (secs - stride.start_secs) / stride.for_secs;
+            if share <= 0.0 {
+                break;
+            }
+            let (go, rise) = self.profile(share);
+            at.ankle = at.ankle + (stride.to.ankle - at.ankle) * go + DVec3::Y * (stride.lift_m * rise);
+            at.yaw_rad += (stride.to.yaw_rad - at.yaw_rad) * go;
+        }
+        let (shift, turn) = &self.rests[side];
+        let turned = sinew_body::humanoid::exp(turn.at(secs)) * DQuat::from_rotation_y(at.yaw_rad);
+        (at.ankle + shift.at(secs), turned.normalize())
+    }
+
+    /// How far a foot in the air has come, and how high it is: a convex arc, under `print` of two straight pieces.
+    fn profile(&self, share: f64) -> (f64, f64) {
+        if self.linear {
+            let share = share.clamp(0.0, 1.0);
+            (share, 1.0 - (2.0 * share - 1.0).abs())
+        } else {
+            (eased(share), arc(share))
+        }
+    }
+
+    /// What a pair of planted feet carries.
+    pub fn support_of(&self, feet: &[Placement; 2]) -> Support {
+        let middle = |side: usize, along: f64| {
+            let sole = &self.soles[side];
+            let place = &feet[side];
+            place.ankle + DQuat::from_rotation_y(place.yaw_rad) * DVec3::new(sole.middle_m, -sole.ankle_m, along)
+        };
+        let along = |side: usize, share: f64| {
+            let sole = &self.soles[side];
+            sole.heel_m + share * (sole.toes_m - sole.heel_m)
+        };
+        let mean = |share: f64| (middle(0, along(0, share)) + middle(1, along(1, share))) * 0.5;
+        let centre = mean(0.42);
+        let corners = [0, 1].map(|side| {
+            let place = &feet[side];
+            let turn = DQuat::from_rotation_y(place.yaw_rad);
+            self.soles[side].corners().map(|corner| place.ankle + turn * corner)
+        });
+        let yaw_rad = feet[0].yaw_rad + 0.5 * (feet[1].yaw_rad - feet[0].yaw_rad);
+        Support { centre, rest: mean(0.30), radius_m: inner_radius(&corners, centre).max(0.02), yaw_rad }
+    }
+
+    /// What the feet carry at a time \[s\]: from stance to stance as the strides go.
+    pub fn support(&self, secs: f64) -> Support {
+        let mut feet = self.planted;
+        let mut now = self.support_of(&feet);
+        let mut total = now;
+        for stride in &self.strides {
+            let share = (secs - stride.start_secs) / stride.for_secs;
+            feet[stride.side] = stride.to;
+            let next = self.support_of(&feet);
+            if share > 0.0 {
+                let go = if self.linear { share.min(1.0) } else { eased(share) };
+                // The weight goes over the foot that stands, not all the way: a step is a fall that is caught.
+                let stands = feet[1 - stride.side].ankle - now.centre;
+                let sway = DVec3::new(stands.x, 0.0, stands.z) * (SWAY * arc(share.min(1.0)));
+                total.centre += (next.centre - now.centre) * go + sway;
+                total.rest += (next.rest - now.rest) * go + sway;
+                total.radius_m += (next.radius_m - now.radius_m) * go;
+                total.yaw_rad += (next.yaw_rad - now.yaw_rad) * go;
+            }
+            now = next;
+        }
+        total
+    }
+}
+
+/// How far the weight goes over the standing foot in a step \[1 of the way\].
+const SWAY: f64 = 0.35;
+
+/// How far a point lies inside the hull of the soles, over the floor \[m\].
+fn inner_radius(soles: &[[DVec3; 4]; 2], point: DVec3) -> f64 {
+    // The hull of two convex shapes: its support in every direction is the larger of theirs.
+    let mut least = f64::INFINITY;
+    for index in 0..48 {
+        let (sin, cos) = libm::sincos(f64::from(index) * (std::f64::consts::PI / 24.0));
+        let out = DVec3::new(sin, 0.0, cos);
+        let reach = soles.iter().flatten().map(|corner| (*corner - point).dot(out)).fold(f64::NEG_INFINITY, f64::max);
+        least = least.min(reach);
+    }
+    least
+}

@@ -1,0 +1,144 @@
+//! A value that goes from wherever it is, however it moves, to where it is wanted, without a kink.
+
+use std::ops::{Add, Mul, Sub};
+
+/// What can glide: numbers and vectors.
+pub trait Value:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> + PartialEq + Default
+{
+}
+
+impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T> + PartialEq + Default> Value for T {}
+
+/// A value over time: at rest, or on its way along a polynomial of fifth degree whose value, velocity and acceleration are
+/// continuous at both ends. From rest to rest that is the minimum-jerk profile of human reaching (Flash, Hogan 1985).
+///
+/// ```
+/// use sinew_reach::Glide;
+/// let mut turn = Glide::rest(0.0);
+/// turn.go(0.0, 1.0, 0.0, 2.0);
+/// assert_eq!(turn.at(1.0), 0.5);
+/// // Somewhere else, in the middle of the way: nothing jumps.
+/// let (value, velocity) = (turn.at(1.0), turn.velocity(1.0));
+/// turn.go(1.0, -1.0, 0.0, 1.0);
+/// assert_eq!((turn.at(1.0), turn.velocity(1.0)), (value, velocity));
+/// assert_eq!(turn.at(2.0), -1.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Glide<T> {
+    from_secs: f64,
+    for_secs: f64,
+    /// Of the powers of the share of the time that has passed.
+    factors: [T; 6],
+    goal: T,
+}
+
+impl<T: Value> Glide<T> {
+    /// It stays.
+    pub fn rest(value: T) -> Glide<T> {
+        let mut factors = [T::default(); 6];
+        factors[0] = value;
+        Glide { from_secs: 0.0, for_secs: 0.0, factors, goal: value }
+    }
+
+    /// It starts with a velocity \[1/s\] and comes to `goal` after `for_secs`.
+    pub fn moving(now: f64, value: T, velocity: T, goal: T, for_secs: f64) -> Glide<T> {
+        Glide::between(now, for_secs, value, velocity, T::default(), goal)
+    }
+
+    /// Goes to `goal` in `for_secs` \[s\], beginning `after_secs` from `now`; what is moving already begins at once and arrives at
+    /// the same time.
+    pub fn go(&mut self, now: f64, goal: T, after_secs: f64, for_secs: f64) {
+        let (velocity, acceleration) = (self.velocity(now), self.acceleration(now));
+        let is_moving = velocity != T::default() || acceleration != T::default();
+        let (from, lasts) = if is_moving { (now, after_secs + for_secs) } else { (now + after_secs, for_secs) };
+        *self = Glide::between(from, lasts, self.at(now), velocity, acceleration, goal);
+    }
+
+    /// Moves value and goal alike by a step: what it is measured from has changed.
+    pub fn shift(&mut self, by: T) {
+        self.factors[0] = self.factors[0] + by;
+        self.goal = self.goal + by;
+    }
+
+    fn between(from_secs: f64, for_secs: f64, value: T, velocity: T, acceleration: T, goal: T) -> Glide<T> {
+        let for_secs = for_secs.max(SHORTEST_SECS);
+        let (way, v, a) = (goal - value, velocity * for_secs, acceleration * (for_secs * for_secs));
+        let factors = [
+            value,
+            v,
+            a * 0.5,
+            way * 10.0 - v * 6.0 - a * 1.5,
+            v * 8.0 - way * 15.0 + a * 1.5,
+            way * 6.0 - v * 3.0 - a * 0.5,
+        ];
+        Glide { from_secs, for_secs, factors, goal }
+    }
+
+    /// Where it goes.
+    pub fn goal(&self) -> T {
+        self.goal
+    }
+
+    /// When it is there \[s\].
+    pub fn end_secs(&self) -> f64 {
+        self.from_secs + self.for_secs
+    }
+
+    /// Its value at a time \[s\].
+    pub fn at(&self, secs: f64) -> T {
+        match self.share(secs) {
+            None => self.goal,
+            Some(u) => {
+                let f = &self.factors;
+                f[0] + (f[1] + (f[2] + (f[3] + (f[4] + f[5] * u) * u) * u) * u) * u
+            }
+        }
+    }
+
+    /// Its velocity at a time \[1/s\].
+    pub fn velocity(&self, secs: f64) -> T {
+        match self.share(secs) {
+            Some(u) if self.for_secs > 0.0 && secs >= self.from_secs => {
+                let f = &self.factors;
+                (f[1] + (f[2] * 2.0 + (f[3] * 3.0 + (f[4] * 4.0 + f[5] * (5.0 * u)) * u) * u) * u)
+                    * (1.0 / self.for_secs)
+            }
+            _ => T::default(),
+        }
+    }
+
+    /// Its acceleration at a time \[1/s²\].
+    pub fn acceleration(&self, secs: f64) -> T {
+        match self.share(secs) {
+            Some(u) if self.for_secs > 0.0 && secs >= self.from_secs => {
+                let f = &self.factors;
+                (f[2] * 2.0 + (f[3] * 6.0 + (f[4] * 12.0 + f[5] * (20.0 * u)) * u) * u)
+                    * (1.0 / (self.for_secs * self.for_secs))
+            }
+            _ => T::default(),
+        }
+    }
+
+    /// Share of its time that has passed; none when it is there.
+    fn share(&self, secs: f64) -> Option<f64> {
+        let passed = secs - self.from_secs;
+        if passed >= self.for_secs { None } else { Some(if passed <= 0.0 { 0.0 } else { passed / self.for_secs }) }
+    }
+}
+
+/// No glide is shorter: it would be a jump \[s\].
+const SHORTEST_SECS: f64 = 1e-3;
+
+/// From 0 to 1 by minimum jerk.
+pub fn eased(share: f64) -> f64 {
+    let u = share.clamp(0.0, 1.0);
+    u * u * u * (10.0 + u * (6.0 * u - 15.0))
+}
+
+/// From 0 over 1 in the middle back to 0, with velocity and acceleration 0 at both ends: a convex arc.
+pub fn arc(share: f64) -> f64 {
+    let u = share.clamp(0.0, 1.0);
+    let hump = 4.0 * u * (1.0 - u);
+    hump * hump * hump
+}

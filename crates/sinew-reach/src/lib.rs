@@ -1,0 +1,49 @@
+//! Reaching: arms, spine, head and legs bring a hand to any target together (Huang, Kapadia, Terzopoulos 2011, *Full-Body Hybrid
+//! Motor Control for Reaching*).
+//!
+//! A [`Reacher`] is a source of poses. It plans the whole way when it is given a [`Goal`]: whether to step and how
+//! ([`decide_step`]), how far the spine twists and swings, how far the hips sink, and where the elbow goes. From then on every
+//! pose is a closed form of the time, and every control a [`Glide`] that can be sent elsewhere at any moment.
+//!
+//! | job | file |
+//! |---|---|
+//! | arm: the hand's way (EQ1 to 4), two-bone limb | `hand_path.rs`, `compose.rs` |
+//! | spine: twist (EQ5, EQ6), swing (EQ7), root (EQ8) | `spine.rs` |
+//! | head | `head.rs` |
+//! | legs: whether and how far to step (EQ9), strides | `legs.rs`, `walk.rs`, `feet.rs` |
+//! | scheduler: states 0 to 3 | `plan.rs`, `reacher.rs` |
+//! | open values | `values.rs` |
+//!
+//! This crate knows nothing of worlds and engines.
+
+mod compose;
+mod dice;
+mod feet;
+mod follow;
+mod glide;
+mod hand_path;
+mod head;
+mod legs;
+mod outcome;
+mod plan;
+mod reacher;
+mod solve;
+mod spine;
+mod values;
+mod walk;
+
+pub use dice::Dice;
+pub use feet::{Feet, Placement, Stride, Support};
+pub use glide::{Glide, Value};
+pub use hand_path::{HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S};
+pub use head::look;
+pub use legs::{
+    StepChoice, StepKind, decide_step, ground_direction, half_probability, step_bias, step_length, step_probability,
+};
+pub use outcome::{Outcome, Reason};
+pub use reacher::{Goal, Reacher, Start, standing};
+pub use spine::{
+    reaching_angle, root_shift, search_twist, squat_for, stoop_range_m, swing_axis, swing_shares, twist_shares,
+};
+pub use values::{Style, StyleError, Values};
+pub use walk::Step;

@@ -1,0 +1,137 @@
+//! From one stance to another: which feet go where.
+
+use crate::Values;
+use crate::feet::{Feet, Placement, Stride};
+use crate::legs::StepKind;
+use crate::spine::wrapped;
+use glam::{DQuat, DVec3};
+
+/// Where a body is to stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stance {
+    /// Middle of the ankles \[m\].
+    pub middle: DVec3,
+    /// Where it faces \[rad\].
+    pub yaw_rad: f64,
+    /// Distance of the ankles \[m\].
+    pub breadth_m: f64,
+}
+
+/// A step for the report.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// Which foot goes first: 0 left, 1 right.
+    pub side: usize,
+    /// Half or full.
+    pub kind: StepKind,
+    /// How far that foot goes \[m\].
+    pub length_m: f64,
+    /// When it leaves the floor \[s\].
+    pub start_secs: f64,
+}
+
+/// Largest turn of a stance between two strides \[rad\].
+const MOST_TURN_RAD: f64 = 0.6;
+
+impl Stance {
+    /// The stance of two feet.
+    pub fn of(feet: &[Placement; 2], values: &Values) -> Stance {
+        let yaw_rad = feet[0].yaw_rad + 0.5 * wrapped(feet[1].yaw_rad - feet[0].yaw_rad);
+        let middle = (feet[0].ankle + feet[1].ankle) * 0.5;
+        let breadth = (feet[0].ankle - feet[1].ankle).dot(DQuat::from_rotation_y(yaw_rad) * DVec3::X);
+        let usual = 0.217 * values.leg_m;
+        Stance { middle, yaw_rad, breadth_m: breadth.clamp(0.8 * usual, 1.4 * usual) }
+    }
+
+    /// Where a foot stands in it.
+    pub fn foot(&self, side: usize) -> Placement {
+        let x = if side == 0 { 0.5 } else { -0.5 } * self.breadth_m;
+        Placement {
+            ankle: self.middle + DQuat::from_rotation_y(self.yaw_rad) * DVec3::new(x, 0.0, 0.0),
+            yaw_rad: self.yaw_rad,
+        }
+    }
+
+    fn towards(&self, to: &Stance, share: f64) -> Stance {
+        Stance {
+            middle: self.middle.lerp(to.middle, share),
+            yaw_rad: self.yaw_rad + (to.yaw_rad - self.yaw_rad) * share,
+            breadth_m: self.breadth_m + (to.breadth_m - self.breadth_m) * share,
+        }
+    }
+}
+
+/// The strides to a stance, beginning with a foot, and the steps that they make. With a half step the last foot stays behind.
+/// Adds nothing when both feet stand there already. False when it is too far to be planned.
+pub(crate) fn walk(
+    feet: &mut Feet,
+    to: &Stance,
+    first: usize,
+    last: StepKind,
+    start_secs: f64,
+    pace: f64,
+    values: &Values,
+    steps: &mut Vec<Step>,
+) -> bool {
+    let placed = feet.last();
+    let from = Stance::of(&placed, values);
+    let mut to = *to;
+    to.yaw_rad = from.yaw_rad + wrapped(to.yaw_rad - from.yaw_rad);
+    let away = to.middle - from.middle;
+    let distance = libm::hypot(away.x, away.z);
+    let turn = (to.yaw_rad - from.yaw_rad).abs();
+    let unit = 0.56 * values.longest_step_m;
+    let strides = if distance > 1.05 * values.longest_step_m { (distance / unit).ceil() } else { 1.0 };
+    let strides = strides.max((turn / MOST_TURN_RAD).ceil()).max(1.0);
+    if strides > (crate::feet::MOST_STRIDES / 2) as f64 {
+        return false;
+    }
+    let strides = strides as usize;
+    let mut at = placed;
+    let mut start = start_secs;
+    let mut side = first;
+    for index in 1..=strides {
+        let place = from.towards(&to, index as f64 / strides as f64).foot(side);
+        let is_last = index == strides;
+        let kind = if is_last && last == StepKind::Half { StepKind::Half } else { StepKind::Full };
+        start = stride(feet, &mut at, side, place, kind, start, pace, values, Some(steps));
+        if is_last && kind == StepKind::Full {
+            let other = 1 - side;
+            stride(feet, &mut at, other, to.foot(other), kind, start, pace, values, None);
+        }
+        side = 1 - side;
+    }
+    true
+}
+
+/// Adds one stride and returns when the next may begin.
+#[allow(clippy::too_many_arguments, reason = "a stride is all of these")]
+fn stride(
+    feet: &mut Feet,
+    at: &mut [Placement; 2],
+    side: usize,
+    to: Placement,
+    kind: StepKind,
+    start_secs: f64,
+    pace: f64,
+    values: &Values,
+    steps: Option<&mut Vec<Step>>,
+) -> f64 {
+    let way = to.ankle - at[side].ankle;
+    let length_m = libm::hypot(way.x, way.z);
+    let turn = wrapped(to.yaw_rad - at[side].yaw_rad).abs();
+    if length_m < 0.01 && turn < 0.05 {
+        return start_secs;
+    }
+    // A longer step takes longer, though not in proportion.
+    let effort = (length_m / values.usual_step_m).max(0.6 * turn).min(2.0);
+    let for_secs = values.step_secs * (0.65 + 0.35 * effort) * pace;
+    let lift_m = values.foot_lift_m * (0.55 + 0.45 * effort.min(1.3));
+    if feet.push(Stride { side, to, start_secs, for_secs, lift_m })
+        && let Some(steps) = steps
+    {
+        steps.push(Step { side, kind, length_m, start_secs });
+    }
+    at[side] = to;
+    start_secs + for_secs
+}

@@ -1,0 +1,260 @@
+//! From a target to a motion.
+
+use super::report::ReachReport;
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, ReductionError};
+use sinew_motion::formats::MotionFile;
+use sinew_reach::{Goal, Reacher, Start, Style, StyleError, standing};
+use sinew_stage::{RecordedCharacter, RecordedProp, Recording};
+use sinew_world::{Form, Solid, hips_over_soles_m};
+
+/// Which hand reaches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hand {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+    /// The one on the target's side.
+    #[default]
+    Auto,
+}
+
+/// Where a target is at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovingPoint {
+    /// The place, as [`ReachJob::target`] \[m\].
+    pub at: DVec3,
+    /// When \[s\].
+    pub secs: f64,
+}
+
+/// What is to be reached, by whom, and how. Places are in the character's facing frame at the start (x to its left, y up, z
+/// forward), with the origin on the floor between the feet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReachJob {
+    /// The target of one hand \[m\].
+    pub target: Option<DVec3>,
+    /// Which hand that is.
+    pub hand: Hand,
+    /// The left hand's own target \[m\].
+    pub left: Option<DVec3>,
+    /// The right hand's own target \[m\].
+    pub right: Option<DVec3>,
+    /// Where the target goes; before the first point it is at `target`.
+    pub moving: Vec<MovingPoint>,
+    /// Mass and height of the body.
+    pub person: Person,
+    /// How it reaches.
+    pub style: Style,
+    /// When the clip is left for the reach \[s\], where there is a clip.
+    pub from_secs: f64,
+}
+
+/// A reach: the motion, and what came of it.
+#[derive(Clone, Debug)]
+pub struct Reached {
+    /// What was decided and achieved.
+    pub report: ReachReport,
+    /// The motion, with the targets as balls.
+    pub recording: Recording,
+    /// Where the character faced at the start \[rad\].
+    pub facing_rad: f64,
+}
+
+/// Why a reach cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ReachError {
+    /// A dial is out of range.
+    #[error(transparent)]
+    Style(#[from] StyleError),
+    /// Nothing to reach, or nothing that can be: what to do.
+    #[error("{0}")]
+    Target(String),
+    /// The clip's skeleton is no body.
+    #[error(transparent)]
+    Body(#[from] ReductionError),
+    /// The clip.
+    #[error(transparent)]
+    Clip(#[from] sinew_motion::Error),
+}
+
+/// Frames per second of the motion.
+const HZ: f64 = 60.0;
+
+/// How long the end is shown \[s\].
+const HOLD_SECS: f64 = 0.4;
+
+/// Farthest target \[m\] and longest time \[s\] that are taken.
+const MOST_M: f64 = 1e4;
+const MOST_SECS: f64 = 600.0;
+
+/// Makes the motion of a reach, from standing or from a clip.
+///
+/// ```
+/// use glam::DVec3;
+/// use sinew::reach::{ReachJob, reach};
+/// let job = ReachJob { target: Some(DVec3::new(0.4, 1.4, 0.5)), ..ReachJob::default() };
+/// let reached = reach(&job, None)?;
+/// assert!(reached.report.reached && reached.report.hand_error_m < 1e-3);
+/// # Ok::<(), sinew::reach::ReachError>(())
+/// ```
+///
+/// # Errors
+/// When there is no target, a number is out of range, or the clip holds no body.
+pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, ReachError> {
+    job.check()?;
+    let (body, start) = match clip {
+        Some(clip) => from_clip(job, clip)?,
+        None => {
+            let body = Body::standard(job.person.mass_kg, job.person.height_m.unwrap_or(1.7));
+            let pose = standing(&body, DVec3::ZERO, 0.0);
+            (body, Start { pose, before: None })
+        }
+    };
+    let facing_rad = facing(&start.pose);
+    let place = between_feet(&body, &start.pose);
+    let world = |point: DVec3| place + DQuat::from_rotation_y(facing_rad) * point;
+    let hand = job.chosen_hand();
+    let first = |side: usize| -> Option<DVec3> {
+        let own = if side == 0 { job.left } else { job.right };
+        own.or((hand == side && job.left.is_none() && job.right.is_none()).then_some(job.target?)).map(world)
+    };
+    let mut reacher = Reacher::new(&body, &job.style, &start)?;
+    let mut goal = Goal { left: first(0), right: first(1) };
+    let targets: Vec<(usize, DVec3)> =
+        [(0, goal.left), (1, goal.right)].into_iter().filter_map(|(s, t)| Some((s, t?))).collect();
+    let shift_at = |secs: f64| job.moved(secs).map_or(DVec3::ZERO, |moved| DQuat::from_rotation_y(facing_rad) * moved);
+    // The target's way is known: the body goes where it will be.
+    reacher.reach(&goal);
+    let moves = !job.moving.is_empty();
+    let last_move = job.moving.iter().map(|point| point.secs).fold(0.0, f64::max);
+    let mut end = reacher.done_secs().max(last_move) + HOLD_SECS;
+    let mut poses: Vec<Pose> = Vec::new();
+    let mut places: Vec<Vec<(DVec3, DQuat)>> = vec![Vec::new(); targets.len()];
+    let mut frame = 0;
+    while frame as f64 <= end * HZ + 0.5 && frame as f64 <= MOST_SECS * HZ {
+        let secs = frame as f64 / HZ;
+        reacher.advance(secs);
+        if moves {
+            let shift = shift_at(secs);
+            goal.left = first(0).map(|target| target + shift);
+            goal.right = first(1).map(|target| target + shift);
+            reacher.follow(&goal);
+            end = reacher.done_secs().max(last_move) + HOLD_SECS;
+        }
+        poses.push(reacher.pose_at(secs));
+        for (index, (side, _)) in targets.iter().enumerate() {
+            let at = if *side == 0 { goal.left } else { goal.right };
+            places[index].push((at.unwrap_or_default(), DQuat::IDENTITY));
+        }
+        frame += 1;
+    }
+    let report = ReachReport::of(&body, &reacher, &poses, &goal, HZ);
+    let props = targets.iter().zip(places).map(|((side, _), places)| RecordedProp {
+        name: if targets.len() == 1 { "target".to_owned() } else { ["leftTarget", "rightTarget"][*side].to_owned() },
+        solid: Solid::new(Form::Ball { radius_m: TARGET_M }),
+        rgb: Some([0xd0, 0x40, 0x40]),
+        is_sensor: false,
+        places,
+    });
+    let props = props.collect();
+    let character = RecordedCharacter { name: "body".to_owned(), body, rgb: None, poses, shapes: Vec::new() };
+    let frames = character.poses.len();
+    Ok(Reached {
+        report,
+        recording: Recording { motion_hz: HZ, frames, characters: vec![character], props },
+        facing_rad,
+    })
+}
+
+/// Radius of a target's ball in pictures and files \[m\].
+const TARGET_M: f64 = 0.045;
+
+impl ReachJob {
+    fn check(&self) -> Result<(), ReachError> {
+        self.style.check()?;
+        let wrong = |text: String| Err(ReachError::Target(text));
+        let places = [self.target, self.left, self.right].into_iter().flatten();
+        for place in places.clone().chain(self.moving.iter().map(|point| point.at)) {
+            if !place.is_finite() || place.abs().max_element() > MOST_M {
+                return wrong(format!("a target of {place} is out of range; give metres, at most {MOST_M:.0}"));
+            }
+        }
+        if places.count() == 0 {
+            return wrong("nothing to reach; give a target X:Y:Z in metres: x to the left, y up, z forward".to_owned());
+        }
+        for point in &self.moving {
+            if !(0.0..=MOST_SECS).contains(&point.secs) {
+                return wrong(format!("a time of {} s is out of range; it is 0 to {MOST_SECS:.0}", point.secs));
+            }
+        }
+        if self.moving.windows(2).any(|pair| pair[1].secs <= pair[0].secs) {
+            return wrong("the times of a moving target must grow from point to point".to_owned());
+        }
+        let Person { mass_kg, height_m } = self.person;
+        let height_m = height_m.unwrap_or(1.7);
+        if !(1.0..=1000.0).contains(&mass_kg) || !(0.2..=10.0).contains(&height_m) {
+            return Err(ReductionError::Person { mass_kg, height_m }.into());
+        }
+        Ok(())
+    }
+
+    /// The hand of the single target.
+    fn chosen_hand(&self) -> usize {
+        match self.hand {
+            Hand::Left => 0,
+            Hand::Right => 1,
+            // Most people are right-handed: what is straight ahead is the right hand's.
+            Hand::Auto => usize::from(self.target.is_none_or(|target| target.x < 0.06)),
+        }
+    }
+
+    /// How far the target has moved from where it began \[m\]: smooth from point to point.
+    fn moved(&self, secs: f64) -> Option<DVec3> {
+        let begin = self.target.or(self.right).or(self.left)?;
+        let mut from = MovingPoint { at: begin, secs: 0.0 };
+        for to in &self.moving {
+            if secs < to.secs {
+                let share = (secs - from.secs) / (to.secs - from.secs).max(1e-6);
+                let share = share * share * share * (10.0 + share * (6.0 * share - 15.0));
+                return Some(from.at.lerp(to.at, share.clamp(0.0, 1.0)) - begin);
+            }
+            from = *to;
+        }
+        Some(from.at - begin)
+    }
+}
+
+/// The body of a clip and its pose at a time, with how it moves, standing on the floor at height 0.
+fn from_clip(job: &ReachJob, file: &MotionFile) -> Result<(Body, Start), ReachError> {
+    let parts = file.body_parts()?;
+    let reduction = Reduction::new(&file.clip, parts, file.stature_m, job.person)?;
+    let frame_time = file.clip.frame_time_secs();
+    let last = file.clip.frames().saturating_sub(1);
+    let at = ((job.from_secs / frame_time).round().max(0.0) as usize).min(last);
+    let before = at.saturating_sub(((1.0 / HZ) / frame_time).round().max(1.0) as usize);
+    let mut pose = reduction.pose(&file.clip.world(at));
+    let mut earlier = reduction.pose(&file.clip.world(before));
+    let lift = hips_over_soles_m(reduction.body(), &pose) - pose.hips_position.y;
+    for pose in [&mut pose, &mut earlier] {
+        pose.hips_position.y += lift;
+    }
+    let mut body = reduction.body().clone();
+    body.widen_limits(&pose);
+    let ago = (at - before) as f64 * frame_time;
+    Ok((body, Start { pose, before: (ago > 0.0).then_some((earlier, ago)) }))
+}
+
+/// Where a pose faces \[rad about +Y from +Z to +X\].
+fn facing(pose: &Pose) -> f64 {
+    let forward = pose.world[Node::Hips.index()] * DVec3::Z;
+    libm::atan2(forward.x, forward.z)
+}
+
+/// The floor between the feet \[m\].
+fn between_feet(body: &Body, pose: &Pose) -> DVec3 {
+    let at = pose.positions(body);
+    let middle = (at[Node::LeftFoot.index()] + at[Node::RightFoot.index()]) * 0.5;
+    DVec3::new(middle.x, pose.hips_position.y - hips_over_soles_m(body, pose), middle.z)
+}

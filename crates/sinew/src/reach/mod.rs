@@ -1,0 +1,9 @@
+//! The whole job of `sinew reach`: a target in; motion, report and picture out.
+
+mod draw;
+mod job;
+mod report;
+
+pub use draw::{contact_sheet, sheet};
+pub use job::{Hand, MovingPoint, ReachError, ReachJob, Reached, reach};
+pub use report::{ReachReport, StepReport};
