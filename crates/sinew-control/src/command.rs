@@ -4,6 +4,7 @@
 //! Names are those of the scene file: characters, objects, poses, graphs. Body parts are VRM 1.0 names. Vectors are
 //! `[x, y, z]` in metres, newtons or m/s, in the world's axes (Y up) unless said otherwise.
 
+use crate::perform::PerformerSample;
 use serde::{Deserialize, Serialize};
 
 /// One change to a running stage.
@@ -247,6 +248,16 @@ pub enum Action {
         name: String,
         /// Why.
         reason: String,
+    },
+    /// A sample of a live performer arrives.
+    Perform {
+        /// What the capture system says.
+        sample: Box<PerformerSample>,
+    },
+    /// Let a live performer's character follow its performer, or something else for a while.
+    Live {
+        /// On or off.
+        on: bool,
     },
     /// A line for the report's list of events.
     Say {

@@ -3,6 +3,7 @@
 mod command;
 pub mod graph;
 pub mod ik;
+pub mod perform;
 pub mod pose;
 pub mod reflex;
 mod target;

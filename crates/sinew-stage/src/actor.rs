@@ -1,12 +1,14 @@
 //! One character on the stage: its layers, and how its body follows them.
 
 use crate::motion_source::MotionSource;
+use crate::performance::Performance;
 use crate::scene::TrackerKind;
 use crate::scripts::Running;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, Node, Pose};
 use sinew_control::graph::{Cause, Graph, GraphPlayer};
 use sinew_control::ik::Reach;
+use sinew_control::perform::LiveSource;
 use sinew_control::pose::{KeyPose, PosePlayer};
 use sinew_control::reflex::{Reflex, Sense};
 use sinew_control::tracker::{JointGain, KinematicTracker, PdTracker, ResponseTracker};
@@ -34,6 +36,7 @@ pub struct Actor {
     /// Where the hips stay when no source moves them: position and `world_from_hips`.
     pub(crate) stand: (DVec3, DQuat),
     pub(crate) motion: Option<MotionSource>,
+    pub(crate) performance: Option<Performance>,
     pub(crate) script: Option<Running>,
     target: Target,
     step_secs: f64,
@@ -70,6 +73,7 @@ impl Actor {
             response: None,
             stand: (DVec3::ZERO, DQuat::IDENTITY),
             motion: None,
+            performance: None,
             script: None,
             target: Target::STANDING,
             step_secs,
@@ -106,14 +110,15 @@ impl Actor {
     pub(crate) fn aim(&mut self, name: &str) -> Result<bool, String> {
         let pose = self.poses.get(name).ok_or_else(|| unknown("pose", name, self.poses.keys()))?;
         let reaches = Limb::ALL.into_iter().any(|limb| self.player.ik.of(limb).is_some());
-        if self.pose == name && self.graph.is_none() && self.motion.is_none() && !reaches {
+        let is_alone = self.graph.is_none() && self.motion.is_none() && self.followed().is_none();
+        if self.pose == name && is_alone && !reaches {
             return Ok(false);
         }
         self.player.aim(pose);
         self.player.ik.release_all();
         self.pose = name.to_owned();
         self.graph = None;
-        self.motion = None;
+        self.leave_motion();
         Ok(true)
     }
 
@@ -131,8 +136,50 @@ impl Actor {
         self.player.aim(player.pose(graph));
         self.pose = player.pose_name(graph).to_owned();
         self.graph = Some((name.to_owned(), player));
-        self.motion = None;
+        self.leave_motion();
         Ok(())
+    }
+
+    /// Neither a clip nor a performer is followed any more.
+    fn leave_motion(&mut self) {
+        self.motion = None;
+        if let Some(performance) = &mut self.performance {
+            performance.follow(false);
+        }
+    }
+
+    /// The performer, whether it is followed or not.
+    pub(crate) fn performer(&mut self) -> Result<&mut LiveSource, String> {
+        let performance = self.performance.as_mut().map(Performance::source_mut);
+        performance.ok_or_else(|| "it has no performer; write source = { live = {} } in its table".to_owned())
+    }
+
+    /// The performer's stream, where the character has one.
+    pub fn performance(&self) -> Option<&LiveSource> {
+        self.performance.as_ref().map(Performance::source)
+    }
+
+    pub(crate) fn follow_performer(&mut self, on: bool) -> Result<(), String> {
+        self.performer()?;
+        if let Some(performance) = &mut self.performance {
+            performance.follow(on);
+        }
+        if on {
+            self.graph = None;
+            self.motion = None;
+            self.player.ik.release_all();
+        }
+        Ok(())
+    }
+
+    /// The performer that is followed now.
+    fn followed(&self) -> Option<&LiveSource> {
+        self.performance.as_ref().filter(|performance| performance.is_followed()).map(Performance::source)
+    }
+
+    /// The performer's stream goes on by a step. Returns what there is to tell.
+    pub(crate) fn step_performance(&mut self, now_secs: f64) -> Option<&'static str> {
+        self.performance.as_mut()?.advance(now_secs, self.step_secs)
     }
 
     pub(crate) fn signal(&mut self, name: &str) {
@@ -216,6 +263,9 @@ impl Actor {
         if let Some(motion) = &self.motion {
             return motion.pose_at(time_secs);
         }
+        if let Some(performer) = self.followed() {
+            return *performer.pose();
+        }
         let mut locals = self.target.joints.map(|joint| joint.rotation);
         locals[0] = self.stand.1;
         Pose::from_locals(self.stand.0, &locals)
@@ -248,6 +298,9 @@ impl Actor {
         }
         if let Some(motion) = &self.motion {
             motion.write(frame.time_secs + step_secs, &mut self.target);
+        }
+        if let Some(performance) = self.performance.as_ref().filter(|performance| performance.is_followed()) {
+            performance.source().write(&mut self.target);
         }
         if !self.has_layer(Layer::Poses) {
             for joint in &mut self.target.joints {

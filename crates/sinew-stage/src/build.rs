@@ -5,10 +5,16 @@ use crate::actor::Actor;
 use crate::cast::Cast;
 use crate::motion_source::{self, MotionSource, Play};
 use crate::obey::heading;
+use crate::performance::Performance;
 use crate::scene::{CharacterSpec, RopeSpec, Scene, SourceSpec, TrackerKind};
+use crate::scene::{CharacterSpec, Scene, SourceSpec, TrackerKind};
+use glam::DVec3;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, exp};
+use sinew_body::humanoid::{Body, Node, Pose, exp};
+use sinew_control::graph::Graph;
 use sinew_control::graph::{Graph, Touchable};
+use sinew_control::perform::LiveSource;
 use sinew_control::pose::{KeyPose, STAND, resolve_poses};
 use sinew_control::tracker::JointGain;
 use sinew_control::{Layer, PoseSpec};
@@ -72,6 +78,16 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         }
         let mut actor = Actor::new(index, cut.body, poses, graphs, pose, &joints, world.settings().step_secs());
         actor.motion = cut.motion;
+        if let Some(live) = spec.source.as_ref().and_then(|source| source.live.as_ref()) {
+            let source = LiveSource::new(
+                actor.body(),
+                spec.position_m.into(),
+                spec.facing_deg.to_radians(),
+                &start,
+                live.settings(),
+            );
+            actor.performance = Some(Performance::of(source));
+        }
         actors.push(actor);
     }
     fasten(scene, cast, world)?;

@@ -11,6 +11,7 @@ mod fade;
 mod motion_source;
 mod obey;
 mod obey_stage;
+mod performance;
 mod reaction;
 mod recording;
 pub mod scene;

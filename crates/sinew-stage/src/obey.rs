@@ -203,6 +203,16 @@ impl Stage {
                 self.set_tracker(character, kind)?;
                 format!("{who} follows by {name}")
             }
+            Action::Perform { sample } => {
+                // Many a second: what came of them is counted, not told.
+                let now_secs = self.world.frame().time_secs;
+                self.actors[character].performer()?.receive(sample, now_secs);
+                return Ok(None);
+            }
+            Action::Live { on } => {
+                self.actors[character].follow_performer(*on)?;
+                format!("{who} follows {}", if *on { "its performer" } else { "its performer no longer" })
+            }
             Action::Reload { name, text } => return self.reload(name, text.as_deref()).map(Some),
             Action::ScriptKilled { name, reason } => return self.kill_script(name, reason).map(Some),
             Action::Say { text } => format!("{who}: {text}"),

@@ -108,10 +108,10 @@ impl Stage {
     /// In a replay a script is stopped where it was stopped then, before it is called.
     fn is_to_be_killed(&mut self, index: usize, step: u64) -> bool {
         let Some(name) = self.actors[index].script.as_ref().map(|running| running.name.clone()) else { return false };
-        let kill = self.prescribed.iter().flatten().find(|timed| {
-            timed.step == step
-                && matches!(&timed.command.action, Action::ScriptKilled { name: killed, .. } if *killed == name)
-        });
+        let prescribed = crate::take::due(self.prescribed.as_deref().unwrap_or_default(), step);
+        let kill = prescribed.iter().find(
+            |timed| matches!(&timed.command.action, Action::ScriptKilled { name: killed, .. } if *killed == name),
+        );
         let Some(kill) = kill.cloned() else { return false };
         self.record.push(kill.clone());
         if let Action::ScriptKilled { reason, .. } = &kill.command.action {

@@ -10,7 +10,7 @@ use crate::event::{Event, Events};
 use crate::reaction::Reactions;
 use crate::scene::Scene;
 use crate::span::Spans;
-use crate::take::Stamped;
+use crate::take::{self, Stamped};
 use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command};
 use sinew_script::ScriptHost;
@@ -131,9 +131,9 @@ impl Stage {
         while let Some((_, line, command)) = self.timed.pop_if(|(at, ..)| *at <= step) {
             self.obey(&command, &format!("scene, line {line}"));
         }
-        let prescribed = self.prescribed.iter().flatten().filter(|stamped| stamped.step == step);
-        let prescribed = prescribed.filter(|stamped| !matches!(stamped.command.action, Action::ScriptKilled { .. }));
-        self.inbox.extend(prescribed.map(|stamped| stamped.command.clone()).collect::<Vec<_>>());
+        let prescribed = take::due(self.prescribed.as_deref().unwrap_or_default(), step);
+        let prescribed = prescribed.iter().filter(|one| !matches!(one.command.action, Action::ScriptKilled { .. }));
+        self.inbox.extend(prescribed.map(|stamped| stamped.command.clone()));
         for command in std::mem::take(&mut self.inbox) {
             // What is refused here is not recorded: a take holds only what it can give again.
             match self.scene.check_command(&command) {
@@ -165,7 +165,8 @@ impl Stage {
     }
 
     /// Commands that are given at their steps, as a take recorded them. Scripts are stopped where the take says so.
-    pub fn prescribe(&mut self, commands: Vec<Stamped>) {
+    pub fn prescribe(&mut self, mut commands: Vec<Stamped>) {
+        commands.sort_by_key(|stamped| stamped.step);
         self.prescribed = Some(commands);
     }
 

@@ -11,7 +11,12 @@ impl Stage {
     /// Every actor decides, and its tracker tells the world.
     pub(crate) fn step_actors(&mut self) {
         let gravity = self.world.settings().gravity_m_s2;
+        let now_secs = self.world.frame().time_secs;
         for index in 0..self.actors.len() {
+            if let Some(word) = self.actors[index].step_performance(now_secs) {
+                let name = &self.cast.characters()[index];
+                self.note("its stream", format!("{name} {word}"));
+            }
             if let Some((cause, effect)) = self.actors[index].decide(&self.world, gravity) {
                 let name = &self.cast.characters()[index];
                 let effect = format!("{name}: {effect}");

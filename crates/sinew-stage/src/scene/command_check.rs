@@ -177,6 +177,10 @@ impl SceneSpec {
                 self.controller(name)?;
                 words(reason, MOST_WORDS)
             }
+            A::Perform { .. } | A::Live { .. } => match &self.owner(command)?.source {
+                Some(source) if source.live.is_some() => Ok(()),
+                _ => Err("the character has no performer; write source = { live = {} } in its table".to_owned()),
+            },
             A::Say { text } => words(text, MOST_WORDS),
         }
     }

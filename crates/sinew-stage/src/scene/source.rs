@@ -1,11 +1,12 @@
 //! Where a character's wanted pose comes from.
 
+use super::LiveSpec;
 use super::error::Fault;
 use super::range::number;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// One of `pose`, `graph`, `clip`.
+/// One of `pose`, `graph`, `clip`, `live`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SourceSpec {
@@ -21,6 +22,8 @@ pub struct SourceSpec {
     pub start_secs: Option<f64>,
     /// Whether the clip begins again at its end; `true` when left out. A clip with a gait cycle repeats the cycle.
     pub repeat: Option<bool>,
+    /// A live performer.
+    pub live: Option<LiveSpec>,
 }
 
 impl SourceSpec {
@@ -28,8 +31,9 @@ impl SourceSpec {
         let path = ["characters", name, "source"];
         let at = |key| ["characters", name, "source", key];
         let stated = [&self.pose, &self.graph, &self.clip].into_iter().flatten().count();
+        let stated = stated + usize::from(self.live.is_some());
         if stated != 1 {
-            let problem = format!("{stated} of pose, graph and clip are stated; keep exactly one");
+            let problem = format!("{stated} of pose, graph, clip and live are stated; keep exactly one");
             return Err(Fault::at(&path, problem));
         }
         if self.state.is_some() && self.graph.is_none() {
@@ -39,6 +43,9 @@ impl SourceSpec {
             if is_stated && self.clip.is_none() {
                 return Err(Fault::at(&at(key), "only a clip is played so; add clip, or remove this"));
             }
+        }
+        if let Some(live) = &self.live {
+            live.check(name)?;
         }
         number(&at("start_secs"), self.start_secs.unwrap_or(0.0), 0.0..=86_400.0, "seconds into the clip are expected")
     }

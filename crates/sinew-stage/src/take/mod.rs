@@ -11,4 +11,4 @@ mod scene;
 mod write;
 
 pub use error::TakeError;
-pub use record::{HashTrace, Stamped, TAKE_FORMAT, Take, TakeFile};
+pub use record::{HashTrace, Stamped, TAKE_FORMAT, Take, TakeFile, due};

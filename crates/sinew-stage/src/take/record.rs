@@ -60,6 +60,13 @@ pub struct HashTrace {
     pub hashes: Vec<u64>,
 }
 
+/// The commands of a step, of commands whose steps never fall.
+pub fn due(commands: &[Stamped], step: u64) -> &[Stamped] {
+    let from = commands.partition_point(|stamped| stamped.step < step);
+    let rest = &commands[from..];
+    &rest[..rest.partition_point(|stamped| stamped.step == step)]
+}
+
 impl Take {
     /// An empty take of a scene.
     pub fn of(scene: &Scene) -> Take {

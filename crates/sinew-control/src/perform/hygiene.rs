@@ -1,0 +1,188 @@
+//! Which samples are fit to be shown.
+
+use super::buffer::{Buffer, distance};
+use super::numbers::Numbers;
+use super::{PerformCounters, PerformerSample, SampleStatus};
+use sinew_body::humanoid::Pose;
+
+/// Beyond this a sample is of another time \[s\].
+const STALE_SECS: f64 = 1.0;
+
+/// How far a turn's length may be from 1: single precision and a sender's own rounding stay far below.
+const UNIT_ERROR: f64 = 0.01;
+
+/// The fastest turn of a joint \[rad/s\]: a boxer's forearm has about 25.
+const MOST_RAD_S: f64 = 40.0;
+
+/// What a joint may turn on top, whatever the time \[rad\].
+const SPARE_RAD: f64 = 0.35;
+
+/// The fastest hips \[m/s\]: a sprinter's have 12 at the very most.
+const MOST_M_S: f64 = 12.0;
+
+/// What the hips may move on top, whatever the time \[m\].
+const SPARE_M: f64 = 0.15;
+
+/// So many samples in a row that fit one another but not what was before are a new beginning.
+const NEW_BEGINNING: u32 = 10;
+
+/// What is to be done with a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Verdict {
+    /// It goes into the buffer.
+    Use,
+    /// It goes into an empty buffer: the stream begins anew.
+    Begin,
+    /// It is late: only the clock may learn from it.
+    Late,
+    /// It is thrown out.
+    Drop,
+}
+
+/// Looks at samples as they come.
+#[derive(Clone, Debug)]
+pub(super) struct Hygiene {
+    numbers: Numbers,
+    counters: PerformCounters,
+    /// The last sample that did not fit, and how many in a row fitted the one before.
+    odd: Option<(f64, Pose)>,
+    odd_in_a_row: u32,
+    newest_arrival_secs: f64,
+}
+
+/// What a sample is seen against.
+pub(super) struct Around<'a> {
+    pub arrival_secs: f64,
+    /// Sender's time that is shown; `None` before anything is.
+    pub playhead_secs: Option<f64>,
+    pub buffer: &'a Buffer,
+    /// The sample as a pose of the character, and metres of it per metre of the performer.
+    pub pose: &'a Pose,
+    pub scale: f64,
+}
+
+impl Hygiene {
+    pub fn new() -> Hygiene {
+        Hygiene {
+            numbers: Numbers::new(),
+            counters: PerformCounters::default(),
+            odd: None,
+            odd_in_a_row: 0,
+            newest_arrival_secs: 0.0,
+        }
+    }
+
+    pub fn counters(&self) -> PerformCounters {
+        let mut counters = self.counters;
+        counters.lost_is_estimate = !self.numbers.any();
+        if self.numbers.any() {
+            counters.lost = self.numbers.lost();
+        }
+        counters
+    }
+
+    /// What can be told from the sample alone. False throws it out.
+    pub fn is_sound(&mut self, sample: &PerformerSample) -> bool {
+        self.counters.received += 1;
+        let count = match sample.status {
+            SampleStatus::NonFinite => &mut self.counters.non_finite,
+            SampleStatus::Untracked => &mut self.counters.untracked,
+            SampleStatus::Tracked if sample.unit_error() > UNIT_ERROR => &mut self.counters.non_unit,
+            SampleStatus::Tracked => return true,
+        };
+        *count += 1;
+        if let Some(number) = sample.number {
+            self.numbers.take(number);
+        }
+        false
+    }
+
+    /// What can be told from the samples around it.
+    pub fn judge(&mut self, sample: &PerformerSample, around: &Around) -> Verdict {
+        let verdict = self.verdict(sample, around);
+        match verdict {
+            Verdict::Use | Verdict::Begin => {
+                self.counters.used += 1;
+                let is_behind = around.buffer.newest().is_some_and(|newest| sample.time_secs < newest.time_secs);
+                self.counters.reordered += u64::from(verdict == Verdict::Use && is_behind);
+                self.odd = None;
+                self.odd_in_a_row = 0;
+                self.newest_arrival_secs = around.arrival_secs;
+            }
+            Verdict::Late => self.counters.late += 1,
+            Verdict::Drop => {}
+        }
+        verdict
+    }
+
+    fn verdict(&mut self, sample: &PerformerSample, around: &Around) -> Verdict {
+        let time = sample.time_secs;
+        let buffer = around.buffer;
+        let Some(newest) = buffer.newest() else {
+            return match sample.number.is_some_and(|number| !self.numbers.take(number)) {
+                true => self.duplicate(),
+                false => Verdict::Begin,
+            };
+        };
+        let ahead = time - newest.time_secs;
+        let passed = (around.arrival_secs - self.newest_arrival_secs).max(0.0);
+        if ahead < -STALE_SECS || ahead - passed > STALE_SECS {
+            // A stream that begins anew goes on in its new time.
+            let goes_on = |(before, _): (f64, Pose)| (0.0..STALE_SECS).contains(&(time - before)) && time > before;
+            if self.is_new_beginning(time, around.pose, goes_on) {
+                if let Some(number) = sample.number {
+                    self.numbers.restart(number);
+                }
+                return Verdict::Begin;
+            }
+            if let Some(number) = sample.number {
+                self.numbers.take(number);
+            }
+            self.counters.stale += 1;
+            return Verdict::Drop;
+        }
+        let is_new = match sample.number {
+            Some(number) => self.numbers.take(number),
+            None => buffer.nearest(time).is_none_or(|nearest| nearest.time_secs != time),
+        };
+        if !is_new {
+            return self.duplicate();
+        }
+        if around.playhead_secs.is_some_and(|playhead| time <= playhead) {
+            return Verdict::Late;
+        }
+        let Some(nearest) = buffer.nearest(time) else { return Verdict::Begin };
+        let scale = around.scale;
+        let fits = |(before, pose): (f64, Pose)| {
+            let gap = (time - before).abs();
+            let (turn, way) = distance(&pose, around.pose);
+            turn <= SPARE_RAD + MOST_RAD_S * gap && way <= scale * (SPARE_M + MOST_M_S * gap)
+        };
+        if fits((nearest.time_secs, nearest.pose)) {
+            return Verdict::Use;
+        }
+        if self.is_new_beginning(time, around.pose, fits) {
+            return Verdict::Begin;
+        }
+        self.counters.jumps += 1;
+        Verdict::Drop
+    }
+
+    fn duplicate(&mut self) -> Verdict {
+        self.counters.duplicates += 1;
+        Verdict::Drop
+    }
+
+    fn is_new_beginning(&mut self, time: f64, pose: &Pose, fits: impl Fn((f64, Pose)) -> bool) -> bool {
+        self.odd_in_a_row = if self.odd.is_some_and(fits) { self.odd_in_a_row + 1 } else { 0 };
+        self.odd = Some((time, *pose));
+        self.odd_in_a_row >= NEW_BEGINNING
+    }
+
+    /// Samples that the sender seems to have sent between two that came, when it does not number them.
+    pub fn estimate_lost(&mut self, gap_secs: f64, interval_secs: f64) {
+        if gap_secs < STALE_SECS {
+            self.counters.lost += ((gap_secs / interval_secs).round() as u64).saturating_sub(1);
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Which numbers of a numbered stream have come.
+
+/// The last so many numbers, and how many there were in all.
+#[derive(Clone, Debug)]
+pub(super) struct Numbers {
+    /// One bit a number, by the number modulo the window.
+    seen: [u64; WORDS],
+    span: Option<Span>,
+    /// Missing numbers of earlier spans: a sender that begins anew counts anew.
+    lost_before: u64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    lowest: u64,
+    highest: u64,
+    distinct: u64,
+}
+
+const WORDS: usize = 32;
+
+/// Numbers that are remembered one by one.
+const WINDOW: u64 = 64 * WORDS as u64;
+
+impl Numbers {
+    pub fn new() -> Numbers {
+        Numbers { seen: [0; WORDS], span: None, lost_before: 0 }
+    }
+
+    /// Takes a number down. False when it was there before, or is so old that nobody knows.
+    pub fn take(&mut self, number: u64) -> bool {
+        let Some(span) = &mut self.span else {
+            self.begin(number);
+            return true;
+        };
+        if number > span.highest {
+            let ahead = number - span.highest;
+            if ahead >= WINDOW {
+                // Not a gap, but another count.
+                self.lost_before += span.lost();
+                self.begin(number);
+                return true;
+            }
+            for between in span.highest + 1..=number {
+                self.seen[word(between)] &= !bit(between);
+            }
+            span.highest = number;
+        } else if span.highest - number >= WINDOW || self.seen[word(number)] & bit(number) != 0 {
+            return false;
+        }
+        span.lowest = span.lowest.min(number);
+        span.distinct += 1;
+        self.seen[word(number)] |= bit(number);
+        true
+    }
+
+    /// The sender begins anew.
+    pub fn restart(&mut self, number: u64) {
+        self.lost_before += self.span.map_or(0, |span| span.lost());
+        self.begin(number);
+    }
+
+    fn begin(&mut self, number: u64) {
+        self.seen = [0; WORDS];
+        self.seen[word(number)] |= bit(number);
+        self.span = Some(Span { lowest: number, highest: number, distinct: 1 });
+    }
+
+    /// Whether the sender numbers its samples at all.
+    pub fn any(&self) -> bool {
+        self.span.is_some()
+    }
+
+    /// Numbers between the first and the last that have not come.
+    pub fn lost(&self) -> u64 {
+        self.lost_before + self.span.map_or(0, |span| span.lost())
+    }
+}
+
+impl Span {
+    fn lost(&self) -> u64 {
+        (self.highest - self.lowest).saturating_add(1).saturating_sub(self.distinct)
+    }
+}
+
+fn word(number: u64) -> usize {
+    (number % WINDOW / 64) as usize
+}
+
+fn bit(number: u64) -> u64 {
+    1 << (number % 64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_not_come_is_lost_whatever_the_order() {
+        let mut numbers = Numbers::new();
+        for number in [5, 7, 6, 10, 7, 9, 4] {
+            numbers.take(number);
+        }
+        assert_eq!(numbers.lost(), 1, "8 is missing");
+        assert!(!numbers.take(9) && numbers.take(8));
+        assert_eq!(numbers.lost(), 0);
+    }
+
+    #[test]
+    fn a_count_that_begins_elsewhere_costs_nothing() {
+        let mut numbers = Numbers::new();
+        for number in [1, 3, u64::MAX, u64::MAX - 1] {
+            assert!(numbers.take(number));
+        }
+        assert!(!numbers.take(0), "too old to know");
+        assert_eq!(numbers.lost(), 1);
+        numbers.restart(0);
+        assert!(numbers.take(1) && numbers.lost() == 1);
+    }
+}

@@ -1,0 +1,319 @@
+//! The source: samples in, a target for every step out.
+
+use super::align::{Alignment, Stand};
+use super::blend::Blend;
+use super::buffer::{Buffer, Entry};
+use super::clock::Clock;
+use super::hygiene::{Around, Hygiene, Verdict};
+use super::one_euro::OneEuro;
+use super::{Build, LiveSettings, PerformCounters, PerformerSample};
+use crate::Target;
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Node, Pose, exp, log};
+use sinew_world::hips_over_soles_m;
+
+/// What the performer is to the character at present.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presence {
+    /// Nobody has performed yet; the character stands.
+    Waiting,
+    /// The character follows.
+    Performing,
+    /// The stream is silent; the last pose is held.
+    Holding,
+    /// The stream has been silent for long; the character stands at ease.
+    Relaxed,
+}
+
+/// A live performer as the source of a character's wanted pose.
+///
+/// Time is the stage's, told with each call; nothing else of the world is looked at, so the same samples at the same times give
+/// the same bits. Memory is bounded, and neither call allocates.
+///
+/// ```
+/// use glam::DVec3;
+/// use sinew_body::humanoid::{Body, Pose};
+/// use sinew_control::perform::{LiveSettings, LiveSource, PerformerSample, Presence};
+/// let body = Body::standard(80.0, 1.7);
+/// let mut source = LiveSource::new(&body, DVec3::ZERO, 0.0, &Pose::STANDING, LiveSettings::default());
+/// let performer = Body::standard(60.0, 1.5);
+/// for step in 0..240u32 {
+///     let now = f64::from(step) / 240.0;
+///     if step % 4 == 0 {
+///         let mut pose = Pose::STANDING;
+///         pose.hips_position.y = 0.8;
+///         source.receive(&PerformerSample::of_pose(now, &pose, &performer), now);
+///     }
+///     source.advance(now, 1.0 / 240.0);
+/// }
+/// assert_eq!(source.presence(), Presence::Performing);
+/// assert_eq!(source.counters().used, 60);
+/// ```
+#[derive(Clone, Debug)]
+pub struct LiveSource {
+    stand: Stand,
+    settings: LiveSettings,
+    hygiene: Hygiene,
+    clock: Clock,
+    build: Option<Build>,
+    alignment: Option<Alignment>,
+    buffer: Buffer,
+    /// Sender's time that is shown \[s\].
+    playhead: Option<f64>,
+    /// Beyond the last sample.
+    is_ahead: bool,
+    presence: Presence,
+    /// When the last used sample arrived \[s\].
+    heard_secs: f64,
+    idle: Pose,
+    blend: Blend,
+    filter: OneEuro,
+    /// Before and after the filter.
+    blended: Pose,
+    shown: Pose,
+    before: Pose,
+    step_secs: f64,
+    gain: f64,
+}
+
+/// Silence after which a stream counts as lost \[s\]: what runs on beyond its last sample has come to rest by then.
+const SILENT_SECS: f64 = 0.25;
+
+/// How much faster or slower than time the playhead runs to get to where it should be \[1\].
+const MOST_WARP: f64 = 0.1;
+
+/// How fast it gets there \[1/s\].
+const WARP_RATE: f64 = 2.0;
+
+/// Farther from where it should be the playhead jumps \[s\].
+const JUMP_SECS: f64 = 0.4;
+
+/// Least time over which a performer comes back \[s\].
+const RETURN_SECS: f64 = 0.4;
+
+/// Least time over which a gap is bridged \[s\].
+const BRIDGE_SECS: f64 = 0.1;
+
+/// Passed samples looked at in one step.
+const MOST_PASSED: usize = 64;
+
+impl LiveSource {
+    /// A character of this body whose performances begin at `place` (a point of the floor \[m\]) and face `facing_rad` (about +Y
+    /// from +Z to +X). It has the pose `first` until then.
+    pub fn new(body: &Body, place: DVec3, facing_rad: f64, first: &Pose, settings: LiveSettings) -> LiveSource {
+        LiveSource {
+            stand: Stand { body: body.clone(), place, facing_rad },
+            hygiene: Hygiene::new(),
+            clock: Clock::new(settings.most_jitter_secs),
+            build: None,
+            alignment: None,
+            buffer: Buffer::new(),
+            playhead: None,
+            is_ahead: false,
+            presence: Presence::Waiting,
+            heard_secs: 0.0,
+            idle: *first,
+            blend: Blend::none(),
+            filter: OneEuro::new(settings.smoothing_hz),
+            blended: *first,
+            shown: *first,
+            before: *first,
+            step_secs: 1.0 / 240.0,
+            gain: 1.0,
+            settings,
+        }
+    }
+
+    /// Takes a sample in that arrives at a time of the stage \[s\].
+    pub fn receive(&mut self, sample: &PerformerSample, now_secs: f64) {
+        if !self.hygiene.is_sound(sample) || !sample.time_secs.is_finite() {
+            return;
+        }
+        if sample.build.is_some() && self.build.is_none() {
+            self.build = sample.build;
+        }
+        let alignment = self.alignment.unwrap_or_else(|| Alignment::of(sample, self.build, &self.stand));
+        let pose = alignment.pose(sample);
+        let around = Around {
+            arrival_secs: now_secs,
+            playhead_secs: self.playhead,
+            buffer: &self.buffer,
+            pose: &pose,
+            scale: alignment.scale(),
+        };
+        let verdict = self.hygiene.judge(sample, &around);
+        if verdict == Verdict::Begin {
+            self.buffer.clear();
+            self.clock.restart();
+            self.playhead = None;
+        }
+        if verdict != Verdict::Drop {
+            self.clock.observe(now_secs, sample.time_secs, verdict == Verdict::Late);
+        }
+        if matches!(verdict, Verdict::Use | Verdict::Begin) {
+            self.alignment = Some(alignment);
+            self.heard_secs = now_secs;
+            let entry = Entry { time_secs: sample.time_secs, pose };
+            for gap in self.buffer.insert(entry).into_iter().flatten() {
+                self.clock.interval(gap);
+            }
+        }
+    }
+
+    /// Goes on by a step that begins at a time of the stage \[s\]; [`LiveSource::pose`] is then what is wanted at its end.
+    /// Returns the new presence when it changes.
+    pub fn advance(&mut self, now_secs: f64, step_secs: f64) -> Option<Presence> {
+        self.step_secs = step_secs;
+        let was = self.presence;
+        self.presence = self.presence_at(now_secs);
+        if was != self.presence && self.presence == Presence::Relaxed {
+            self.idle = self.at_ease();
+            self.blend = Blend::begin(&self.blended, &self.idle, self.settings.relax_secs);
+        }
+        let wanted = match self.presence {
+            Presence::Waiting | Presence::Relaxed => self.idle,
+            Presence::Performing | Presence::Holding => {
+                let is_back = matches!(was, Presence::Waiting | Presence::Relaxed);
+                self.play(now_secs, step_secs, is_back);
+                self.playhead.and_then(|playhead| self.buffer.at(playhead)).unwrap_or(self.blended)
+            }
+        };
+        self.blend.advance(step_secs);
+        self.blended = self.blend.over(&wanted);
+        self.before = self.shown;
+        self.shown = self.filter.next(&self.shown, &self.blended, step_secs);
+        let gain = if self.presence == Presence::Relaxed { self.settings.relaxed_gain } else { 1.0 };
+        let rate = step_secs / self.settings.relax_secs.max(step_secs);
+        self.gain += (gain - self.gain).clamp(-rate, rate);
+        (was != self.presence).then_some(self.presence)
+    }
+
+    fn presence_at(&self, now_secs: f64) -> Presence {
+        if self.buffer.is_empty() {
+            return Presence::Waiting;
+        }
+        let silent = now_secs - self.heard_secs;
+        match self.presence {
+            _ if silent <= SILENT_SECS => Presence::Performing,
+            Presence::Waiting => Presence::Waiting,
+            _ if silent > SILENT_SECS + self.settings.hold_secs => Presence::Relaxed,
+            Presence::Relaxed => Presence::Relaxed,
+            _ => Presence::Holding,
+        }
+    }
+
+    /// Moves the playhead to what is to be shown at the end of the step.
+    fn play(&mut self, now_secs: f64, step_secs: f64, is_back: bool) {
+        let Some(newest) = self.buffer.newest().map(|newest| newest.time_secs) else { return };
+        // One step more: samples arrive between steps and are seen at the next.
+        let due = now_secs - self.clock.offset_secs() - self.clock.delay_secs();
+        let Some(playhead) = self.playhead else {
+            self.show_from(due, step_secs, RETURN_SECS);
+            return;
+        };
+        let next = playhead + step_secs;
+        let off = due - next;
+        if is_back {
+            self.show_from(due, step_secs, RETURN_SECS);
+        } else if off.abs() > JUMP_SECS {
+            self.show_from(due, step_secs, BRIDGE_SECS);
+        } else if self.is_ahead && next <= newest {
+            // What was guessed is known now.
+            self.show_from(next, step_secs, BRIDGE_SECS);
+        } else if next > newest {
+            // There is nothing to show; the playhead may wait where it should be.
+            self.is_ahead = true;
+            self.playhead = Some(if due < next { due.max(newest).max(playhead.min(next)) } else { next });
+        } else {
+            let warp = (off * WARP_RATE).clamp(-MOST_WARP, MOST_WARP);
+            self.playhead = Some(next + warp * step_secs);
+        }
+        let Some(playhead) = self.playhead else { return };
+        for _ in 0..MOST_PASSED {
+            let Some(gap) = self.buffer.pass(playhead) else { break };
+            if !self.hygiene.counters().lost_is_estimate {
+                continue;
+            }
+            self.hygiene.estimate_lost(gap, self.clock.interval_secs());
+        }
+    }
+
+    /// Shows the stream from a time on, whatever was shown before, without a pop.
+    fn show_from(&mut self, time_secs: f64, step_secs: f64, least_secs: f64) {
+        if let Some(wanted) = self.buffer.at(time_secs - step_secs) {
+            self.blend = Blend::begin(&self.blended, &wanted, least_secs);
+        }
+        self.playhead = Some(time_secs);
+        self.is_ahead = self.buffer.newest().is_none_or(|newest| newest.time_secs < time_secs);
+    }
+
+    /// Standing upright where the pose that is shown stands, facing where it faces.
+    fn at_ease(&self) -> Pose {
+        let forward = self.blended.world[0] * DVec3::Z;
+        let turn = exp(DVec3::Y * libm::atan2(forward.x, forward.z));
+        let height = hips_over_soles_m(&self.stand.body, &Pose::STANDING);
+        let hips = self.blended.hips_position;
+        Pose {
+            hips_position: DVec3::new(hips.x, self.stand.place.y + height, hips.z),
+            world: Pose::STANDING.world.map(|rotation| turn * rotation),
+        }
+    }
+
+    /// What is wanted at the end of the step.
+    pub fn pose(&self) -> &Pose {
+        &self.shown
+    }
+
+    /// Whether and how the performer is there.
+    pub fn presence(&self) -> Presence {
+        self.presence
+    }
+
+    /// What came of the samples so far.
+    pub fn counters(&self) -> PerformCounters {
+        self.hygiene.counters()
+    }
+
+    /// How far behind the shortest way from the sender the pose is shown \[s\]: what evens out jitter and loss.
+    pub fn delay_secs(&self) -> f64 {
+        self.clock.delay_secs()
+    }
+
+    /// How far the playhead lags behind a sample that would arrive now by the shortest way \[s\]; `None` before the first.
+    pub fn lag_secs(&self, now_secs: f64) -> Option<f64> {
+        Some(now_secs - self.clock.offset_secs() - self.playhead?)
+    }
+
+    /// Samples that are kept.
+    pub fn waiting(&self) -> usize {
+        self.buffer.len()
+    }
+
+    /// Factor on how firmly the body holds to the pose: 1, less when relaxed.
+    pub fn gain(&self) -> f64 {
+        self.gain
+    }
+
+    /// Velocity of the hips \[m/s\] and their angular velocity in their own frame \[rad/s\].
+    pub fn root_velocity(&self) -> (DVec3, DVec3) {
+        let linear = (self.shown.hips_position - self.before.hips_position) / self.step_secs;
+        (linear, self.turning(Node::Hips))
+    }
+
+    fn turning(&self, node: Node) -> DVec3 {
+        let apart: DQuat = self.before.local(node).conjugate() * self.shown.local(node);
+        log(apart.normalize()) / self.step_secs
+    }
+
+    /// Writes what is wanted at the end of the step into a target.
+    pub fn write(&self, target: &mut Target) {
+        for node in Node::ALL.into_iter().skip(1) {
+            let joint = target.joint_mut(node);
+            joint.rotation = self.shown.local(node).normalize();
+            joint.velocity = self.turning(node);
+            joint.gain = self.gain;
+            joint.damping = 1.0;
+        }
+        target.root = Some((self.shown.hips_position, self.shown.world[0]));
+    }
+}

@@ -1,0 +1,108 @@
+//! A performer's samples, given as commands, move a character.
+
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
+
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Node, Pose, exp};
+use sinew_control::perform::{PerformerSample, Presence};
+use sinew_control::{Action, Command};
+use sinew_stage::{Scene, Stage};
+
+const SCENE: &str = "format = 1\n[characters.red]\nsource = { live = {} }\ntracker = \"kinematic\"\nfacing_deg = 90\n\
+                     position_m = [2, 0, 0]\n[characters.blue]\npose = \"stand\"\n";
+
+fn stage() -> Stage {
+    Stage::new(Scene::from_text(SCENE).unwrap(), None).unwrap()
+}
+
+/// Somebody of 1.2 m who sways, lifts the left arm and walks to the front.
+fn performed(time_secs: f64) -> PerformerSample {
+    let body = Body::standard(30.0, 1.2);
+    let mut locals = [DQuat::IDENTITY; Node::COUNT];
+    locals[Node::Chest.index()] = exp(DVec3::X * 0.2 * libm::sin(3.0 * time_secs));
+    locals[Node::LeftUpperArm.index()] = exp(DVec3::Z * time_secs.min(1.0));
+    let hips = DVec3::new(5.0, 0.62, 0.4 * time_secs);
+    PerformerSample::of_pose(time_secs + 100.0, &Pose::from_locals(hips, &locals), &body)
+}
+
+fn perform(stage: &mut Stage, steps: usize) {
+    for step in 0..steps {
+        if step % 4 == 0 {
+            let sample = performed(step as f64 / 240.0);
+            stage.command(Command::to("red", Action::Perform { sample: Box::new(sample) }));
+        }
+        stage.step();
+    }
+}
+
+#[test]
+fn a_performer_of_another_size_moves_the_character_from_its_own_place_and_facing() {
+    let mut stage = stage();
+    perform(&mut stage, 480);
+    let red = stage.cast().character("red").unwrap();
+    let seen = &stage.frame().characters[red];
+    // It faces +X; the legs are 1.7 / 1.2 as long, and so are the steps. The delay is about a tenth of a second.
+    let way = seen.part(Node::Hips).position - DVec3::new(2.0, 0.0, 0.0);
+    let wanted = 0.4 * 1.9 * 1.7 / 1.2;
+    assert!((way.x - wanted).abs() < 0.05 && way.z.abs() < 0.01, "{way} for {wanted}");
+    let arm = seen.part(Node::LeftUpperArm).rotation * DVec3::NEG_Y;
+    // The left of who faces +X is -Z; a turn of 1 rad from hanging, on a chest that sways by 0.2 rad at most, 0.1 then.
+    assert!((arm - DVec3::new(0.0, -libm::cos(1.0), -libm::sin(1.0))).length() < 0.1, "{arm}");
+    let performance = stage.state_of(red).unwrap().performance().unwrap();
+    assert_eq!(performance.presence(), Presence::Performing);
+    assert_eq!(performance.counters().used, 120);
+}
+
+#[test]
+fn a_stream_that_ends_is_held_then_the_character_stands_at_ease() {
+    let mut stage = stage();
+    perform(&mut stage, 240);
+    for _ in 0..1200 {
+        stage.step();
+    }
+    let red = stage.cast().character("red").unwrap();
+    let told: Vec<&str> = stage.events().list().iter().map(|event| event.effect.as_str()).collect();
+    assert_eq!(told, ["red is performed", "red hears no performer and holds", "red hears no performer and relaxes"]);
+    let seen = &stage.frame().characters[red];
+    assert!((seen.part(Node::LeftUpperArm).rotation * DVec3::NEG_Y + DVec3::Y).length() < 0.01, "the arm hangs");
+    assert_eq!(stage.state_of(red).unwrap().performance().unwrap().presence(), Presence::Relaxed);
+}
+
+#[test]
+fn a_sample_for_somebody_who_is_not_performed_is_refused_and_changes_nothing() {
+    let (mut stage, mut other) = (stage(), stage());
+    let sample = Box::new(performed(0.0));
+    stage.command(Command::to("blue", Action::Perform { sample }));
+    for _ in 0..60 {
+        stage.step();
+        other.step();
+    }
+    assert!(stage.events().list()[0].effect.contains("refused: it has no performer"));
+    assert_eq!(stage.hash(), other.hash());
+}
+
+#[test]
+fn a_performer_may_hand_over_to_a_pose_and_take_over_again() {
+    let mut stage = stage();
+    perform(&mut stage, 120);
+    let red = stage.cast().character("red").unwrap();
+    let arm = |stage: &Stage| stage.frame().characters[red].part(Node::LeftUpperArm).rotation * DVec3::NEG_Y;
+    stage.command(Command::to("red", Action::Pose { name: "stand".to_owned() }));
+    perform(&mut stage, 480);
+    assert!((arm(&stage) + DVec3::Y).length() < 0.01, "the pose has it");
+    stage.command(Command::to("red", Action::Live { on: true }));
+    perform(&mut stage, 480);
+    assert!(arm(&stage).z < -0.5, "the performer has it");
+}
+
+#[test]
+fn a_performance_replays_to_the_same_bits_from_its_commands() {
+    let mut first = stage();
+    perform(&mut first, 300);
+    let mut again = stage();
+    again.prescribe(first.record().to_vec());
+    for _ in 0..300 {
+        again.step();
+    }
+    assert_eq!(again.hash(), first.hash());
+}
