@@ -77,7 +77,7 @@ fn a_sample_for_somebody_who_is_not_performed_is_refused_and_changes_nothing() {
         stage.step();
         other.step();
     }
-    assert!(stage.events().list()[0].effect.contains("refused: it has no performer"));
+    assert!(stage.events().list()[0].effect.contains("the character has no performer"));
     assert_eq!(stage.hash(), other.hash());
 }
 

@@ -178,7 +178,10 @@ impl SceneSpec {
                 words(reason, MOST_WORDS)
             }
             A::Perform { .. } | A::Live { .. } => match &self.owner(command)?.source {
-                Some(source) if source.live.is_some() => Ok(()),
+                Some(source) if source.live.is_some() => match &command.action {
+                    A::Perform { sample } => within("time_secs", sample.time_secs, -1e9..=1e9),
+                    _ => Ok(()),
+                },
                 _ => Err("the character has no performer; write source = { live = {} } in its table".to_owned()),
             },
             A::Say { text } => words(text, MOST_WORDS),
