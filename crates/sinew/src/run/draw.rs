@@ -61,6 +61,13 @@ fn custom([red, green, blue]: [u8; 3]) -> Shade {
     Shade::Custom(Colour::hex(u32::from(red) << 16 | u32::from(green) << 8 | u32::from(blue)))
 }
 
+/// From a point to a shape's axis.
+fn distance_m(point: DVec3, shape: &Capsule) -> f64 {
+    let along = shape.to - shape.from;
+    let share = (point - shape.from).dot(along) / along.length_squared().max(1e-12);
+    point.distance(shape.from + along * share.clamp(0.0, 1.0))
+}
+
 /// The strip of a run.
 pub fn sheet(recording: &Recording, scene: &Scene, title: &str, subtitle: &str) -> Sheet {
     let last = recording.frames.saturating_sub(1);
@@ -100,21 +107,18 @@ fn panel(recording: &Recording, frame: usize) -> Panel {
         all.extend(figure(&character.body, pose, character.rgb));
         all.extend(worn(character, pose, frame));
     }
-    let is_near = |place: DVec3| {
-        recording.characters.is_empty()
-            || recording
-                .characters
-                .iter()
-                .any(|character| character.poses[frame].hips_position.distance(place) < NEAR_M)
+    let is_near = |shape: &Capsule| {
+        let near = |character: &RecordedCharacter| distance_m(character.poses[frame].hips_position, shape) < NEAR_M;
+        recording.characters.is_empty() || recording.characters.iter().any(near)
     };
     for prop in recording.props.iter().filter(|prop| !prop.is_sensor) {
         let (position, rotation): (DVec3, DQuat) = prop.places[frame];
-        if !is_near(position) {
-            continue;
-        }
         let shade = prop.rgb.map_or(Shade::Object, custom);
-        for (from, to, radius) in capsules(&prop.solid) {
-            all.push(Capsule::new(position + rotation * from, position + rotation * to, radius, shade));
+        let placed =
+            |(from, to, radius)| Capsule::new(position + rotation * from, position + rotation * to, radius, shade);
+        let shapes: Vec<Capsule> = capsules(&prop.solid).into_iter().map(placed).collect();
+        if shapes.iter().any(is_near) {
+            all.extend(shapes);
         }
     }
     let follow = (!recording.characters.is_empty()).then_some(middle);
