@@ -5,6 +5,7 @@
 //! `[x, y, z]` in metres, newtons or m/s, in the world's axes (Y up) unless said otherwise.
 
 use crate::perform::PerformerSample;
+use crate::tracker::{KdDamping, KdPreset};
 use serde::{Deserialize, Serialize};
 
 /// One change to a running stage.
@@ -209,9 +210,68 @@ pub enum Action {
         /// Its name in the scene.
         name: String,
     },
+    /// Hold parts more or less firmly: to their places, to their joint angles (tracker `kd`).
+    Weights {
+        /// The parts; empty means all.
+        #[serde(default)]
+        parts: Vec<String>,
+        /// How far they are held to their places: 1 as the gains say, 0 not at all; as it was when left out.
+        #[serde(default)]
+        pin: Option<f64>,
+        /// How far their joints are held to their angles.
+        #[serde(default)]
+        joint: Option<f64>,
+        /// How long the change takes \[s\]; half a second when left out.
+        #[serde(default)]
+        fade_secs: Option<f64>,
+        /// For how long, then as the scene says \[s\]; until changed again when left out.
+        #[serde(default)]
+        for_secs: Option<f64>,
+    },
+    /// Other gains of the tracker `kd`; what is left out stays as it is, or as the preset has it when one is named.
+    Kd {
+        /// Gains for a purpose.
+        #[serde(default)]
+        preset: Option<KdPreset>,
+        /// Stiffness that holds parts to their places \[1/s², per unit mass\].
+        #[serde(default)]
+        k_p: Option<f64>,
+        /// Its damping \[1/s, per unit mass\].
+        #[serde(default)]
+        d_p: Option<f64>,
+        /// Stiffness of joints \[1/s², per unit of the inertia of what hangs from them\].
+        #[serde(default)]
+        k_q: Option<f64>,
+        /// Its damping \[1/s, per unit of inertia\].
+        #[serde(default)]
+        d_q: Option<f64>,
+        /// Against the performer's velocity or against the ground.
+        #[serde(default)]
+        damping: Option<KdDamping>,
+        /// Give the forces that the performer's motion itself needs.
+        #[serde(default)]
+        feed_forward: Option<bool>,
+        /// How long the change takes \[s\]; half a second when left out.
+        #[serde(default)]
+        fade_secs: Option<f64>,
+        /// For how long, then as the scene says \[s\]; until changed again when left out.
+        #[serde(default)]
+        for_secs: Option<f64>,
+    },
+    /// Switch the kinematic forces of the tracker `kd` off, so that the body falls freely, or on again.
+    Pins {
+        /// On or off.
+        on: bool,
+        /// How long the change takes \[s\]; half a second when left out.
+        #[serde(default)]
+        fade_secs: Option<f64>,
+        /// For how long, then the other way round \[s\]; until changed again when left out.
+        #[serde(default)]
+        for_secs: Option<f64>,
+    },
     /// Follow with another tracker from now on.
     Tracker {
-        /// `kinematic`, `pd` or `response`.
+        /// `kinematic`, `pd`, `kd` or `response`.
         name: String,
     },
     /// Hand a prop a new place or velocity.

@@ -11,9 +11,9 @@ use sinew_control::ik::Reach;
 use sinew_control::perform::LiveSource;
 use sinew_control::pose::{KeyPose, PosePlayer};
 use sinew_control::reflex::{Reflex, Sense};
-use sinew_control::tracker::{JointGain, KinematicTracker, PdTracker, ResponseTracker};
+use sinew_control::tracker::{JointGain, KdTracker, KinematicTracker, PdTracker, ResponseTracker};
 use sinew_control::{Layer, Target};
-use sinew_world::World;
+use sinew_world::{World, hips_over_soles_m};
 use std::collections::BTreeMap;
 
 /// A character's control: three layers (key poses and graphs, a script, reflexes) and a tracker.
@@ -32,13 +32,18 @@ pub struct Actor {
     pub(crate) tracker: TrackerKind,
     pub(crate) pd: PdTracker,
     pub(crate) kinematic: Option<KinematicTracker>,
+    pub(crate) kd: Option<KdTracker>,
     pub(crate) response: Option<ResponseTracker>,
     /// Where the hips stay when no source moves them: position and `world_from_hips`.
     pub(crate) stand: (DVec3, DQuat),
+    /// Height of the floor that its soles keep to when no source moves its hips, for a tracker that holds the hips \[m\].
+    pub(crate) sole_m: Option<f64>,
     pub(crate) motion: Option<MotionSource>,
     pub(crate) performance: Option<Performance>,
+    /// Whether a source moved its hips in the last step.
+    pub(crate) moved_root: bool,
     pub(crate) script: Option<Running>,
-    target: Target,
+    pub(crate) target: Target,
     step_secs: f64,
 }
 
@@ -70,10 +75,13 @@ impl Actor {
             layers: [true; 3],
             tracker: TrackerKind::Pd,
             kinematic: None,
+            kd: None,
             response: None,
             stand: (DVec3::ZERO, DQuat::IDENTITY),
+            sole_m: None,
             motion: None,
             performance: None,
+            moved_root: false,
             script: None,
             target: Target::STANDING,
             step_secs,
@@ -258,6 +266,11 @@ impl Actor {
         &self.body
     }
 
+    /// Whether its source says where the hips are to be.
+    pub(crate) fn moves_root(&self) -> bool {
+        self.motion.is_some() || self.followed().is_some()
+    }
+
     /// The whole pose that is wanted at a time \[s\]: of the clip, or of the target with the hips where they stand.
     pub(crate) fn wanted_pose(&self, time_secs: f64) -> Pose {
         if let Some(motion) = &self.motion {
@@ -268,7 +281,11 @@ impl Actor {
         }
         let mut locals = self.target.joints.map(|joint| joint.rotation);
         locals[0] = self.stand.1;
-        Pose::from_locals(self.stand.0, &locals)
+        let mut pose = Pose::from_locals(self.stand.0, &locals);
+        if let Some(sole_m) = self.sole_m {
+            pose.hips_position.y = sole_m + hips_over_soles_m(&self.body, &pose);
+        }
+        pose
     }
 
     /// Decides what is wanted at the end of the next step. Returns what the graph did, if it did something: cause and effect.

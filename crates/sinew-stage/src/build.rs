@@ -227,6 +227,7 @@ fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
             repeats: source.and_then(|source| source.repeat).unwrap_or(true),
             until_secs: scene.stage.duration_secs,
             is_filtered: spec.tracker == TrackerKind::Response,
+            stands_on_floor: spec.tracker == TrackerKind::Kd,
         },
     )?;
     for pose in motion.poses() {

@@ -3,11 +3,12 @@
 use crate::obey::heading;
 use crate::scene::{CharacterSpec, Scene};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Node, Person, Pose, Reduction, log};
+use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, log};
 use sinew_control::Target;
 use sinew_motion::formats::{MotionFile, ReadOptions};
-use sinew_motion::{find_cycle, repeat, resample};
+use sinew_motion::{find_cycle, moves_from, repeat, resample};
 use sinew_response::{Motion, Settings};
+use sinew_world::hips_over_soles_m;
 
 /// Poses at a constant rate, placed on the stage.
 #[derive(Clone, Debug)]
@@ -47,6 +48,8 @@ pub(crate) struct Play {
     pub until_secs: f64,
     /// Low-passed, as the response needs it to know the motion's torques.
     pub is_filtered: bool,
+    /// Lifted or lowered so that its soles stand on the floor of the character's place: for bodies that feel the floor.
+    pub stands_on_floor: bool,
 }
 
 impl MotionSource {
@@ -57,7 +60,7 @@ impl MotionSource {
         spec: &CharacterSpec,
         play: &Play,
     ) -> Result<MotionSource, String> {
-        let Play { hz, start_secs, repeats, until_secs, is_filtered } = *play;
+        let Play { hz, mut start_secs, repeats, until_secs, is_filtered, stands_on_floor } = *play;
         let humanoid = file.body_parts().map_err(|error| error.to_string())?;
         let wanted = (((start_secs + until_secs) * hz).ceil() as usize + 2).min(MOST_FRAMES);
         let clip = resample(&file.clip, hz);
@@ -66,7 +69,11 @@ impl MotionSource {
                 let length = cycle.last.saturating_sub(cycle.first).max(1);
                 repeat(&clip, humanoid, (cycle.first, cycle.last), wanted / length + 2).clip
             }
-            None => clip,
+            None => {
+                // Many files begin with a rest pose that is not part of the motion.
+                start_secs = start_secs.max(moves_from(&file.clip, humanoid) as f64 * file.clip.frame_time_secs());
+                clip
+            }
         };
         let mut poses: Vec<Pose> = if is_filtered {
             let settings = Settings { time_step_secs: 1.0 / hz, ..Settings::default() };
@@ -83,7 +90,8 @@ impl MotionSource {
         let wanted = heading(spec.facing_deg);
         let turn = DQuat::from_rotation_y(libm::atan2(wanted.x, wanted.z) - libm::atan2(forward.x, forward.z));
         let place = DVec3::from(spec.position_m);
-        let from = DVec3::new(start.hips_position.x, 0.0, start.hips_position.z);
+        let floor = if stands_on_floor { floor_m(reduction.body(), &poses[first..]) } else { 0.0 };
+        let from = DVec3::new(start.hips_position.x, floor, start.hips_position.z);
         for pose in &mut poses {
             pose.hips_position = turn * (pose.hips_position - from) + place;
             pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
@@ -101,6 +109,16 @@ impl MotionSource {
         pose.hips_position = from.hips_position.lerp(to.hips_position, share);
         for node in Node::ALL {
             pose.world[node.index()] = from.world[node.index()].slerp(to.world[node.index()], share).normalize();
+        }
+        pose
+    }
+
+    /// The pose that led to the one at a time in a step of this length, by how the motion goes on from there.
+    pub fn pose_before(&self, time_secs: f64, step_secs: f64) -> Pose {
+        let (mut pose, next) = (self.pose_at(time_secs), self.pose_at(time_secs + step_secs));
+        pose.hips_position += pose.hips_position - next.hips_position;
+        for (rotation, next) in pose.world.iter_mut().zip(next.world) {
+            *rotation = (*rotation * next.conjugate() * *rotation).normalize();
         }
         pose
     }
@@ -125,4 +143,11 @@ impl MotionSource {
         }
         target.root = Some((pose.hips_position, pose.world[0]));
     }
+}
+
+/// Height on which the soles of poses stand \[m\]: they come lower by some centimetres only as feet roll off.
+fn floor_m(body: &Body, poses: &[Pose]) -> f64 {
+    let mut lowest: Vec<f64> = poses.iter().map(|pose| pose.hips_position.y - hips_over_soles_m(body, pose)).collect();
+    lowest.sort_by(f64::total_cmp);
+    lowest.get(lowest.len() / 4).copied().unwrap_or(0.0)
 }

@@ -196,6 +196,7 @@ impl Stage {
                 self.start_controller(character, name)?;
                 format!("{who} is run by {}", if name.is_empty() { "no controller" } else { name })
             }
+            Action::Weights { .. } | Action::Kd { .. } | Action::Pins { .. } => self.obey_kd(character, action)?,
             Action::Tracker { name } => {
                 let kind = TrackerKind::of(name).ok_or_else(|| {
                     format!("no tracker `{name}`; there are {}", TrackerKind::ALL.map(TrackerKind::name).join(", "))
@@ -259,6 +260,10 @@ impl Stage {
                 self.world.remove_shape(*character, *node, name);
                 format!("{}'s {} has the shape {name} no longer", who(*character), node.part())
             }
+            Ending::Weights(..) | Ending::Kd(_) | Ending::Pins(_) => {
+                let Some(effect) = self.end_kd(ending) else { return };
+                effect
+            }
             Ending::Acceleration(prop) => {
                 self.world.accelerate_prop(*prop, DVec3::ZERO);
                 format!("{} keeps its speed", self.cast.props()[*prop])
@@ -310,7 +315,7 @@ impl Stage {
         })
     }
 
-    fn parts(&self, character: usize, names: &[String]) -> Result<Vec<Node>, String> {
+    pub(crate) fn parts(&self, character: usize, names: &[String]) -> Result<Vec<Node>, String> {
         names.iter().map(|name| self.part(character, name)).collect()
     }
 
@@ -375,7 +380,7 @@ pub(crate) fn over(over_secs: Option<f64>) -> String {
     over_secs.map_or(String::new(), |secs| format!(" within {secs:.2} s"))
 }
 
-fn listed(nodes: &[Node]) -> String {
+pub(crate) fn listed(nodes: &[Node]) -> String {
     if nodes.len() == Node::COUNT {
         return "all parts".to_owned();
     }

@@ -20,6 +20,12 @@ pub enum Ending {
     Shape(usize, Node),
     /// A shape that was added to a part is taken away.
     ExtraShape(usize, Node, String),
+    /// A part is held as the scene says (tracker `kd`).
+    Weights(usize, Node),
+    /// The gains of the tracker `kd` are those of the scene.
+    Kd(usize),
+    /// Kinematic forces that were switched are switched back.
+    Pins(usize),
     /// A moving prop keeps its speed.
     Acceleration(usize),
 }

@@ -5,7 +5,7 @@ use crate::basis::basis_for;
 use crate::scene::TrackerKind;
 use sinew_body::humanoid::Node;
 use sinew_control::graph::Cause;
-use sinew_control::tracker::{KinematicTracker, ResponseTracker};
+use sinew_control::tracker::{KdTracker, KinematicTracker, ResponseTracker};
 
 impl Stage {
     /// Every actor decides, and its tracker tells the world.
@@ -45,6 +45,26 @@ impl Stage {
                 let Some(tracker) = &mut actor.kinematic else { return };
                 if tracker.wants_pose() {
                     tracker.wanted(&wanted);
+                }
+                tracker.physics_step(&mut self.world, index);
+            }
+            TrackerKind::Kd => {
+                let wants_pose = actor.kd.as_ref().is_some_and(KdTracker::wants_pose);
+                let moves_root = actor.moves_root();
+                if wants_pose && std::mem::replace(&mut actor.moved_root, moves_root) && !moves_root {
+                    self.stand_here(index);
+                }
+                let actor = &mut self.actors[index];
+                let wanted = wants_pose.then(|| actor.wanted_pose(frame_end));
+                let Some(tracker) = &mut actor.kd else { return };
+                if let Some(wanted) = wanted {
+                    tracker.wanted(&wanted);
+                }
+                for node in Node::ALL {
+                    let at = node.index();
+                    let joint = &actor.target.joints[at];
+                    tracker.joint_gain[at] = actor.pd.global_gain * actor.pd.joint_gain[at] * joint.gain;
+                    tracker.torque[at] = joint.torque;
                 }
                 tracker.physics_step(&mut self.world, index);
             }
@@ -96,20 +116,49 @@ impl Stage {
             }
             _ => None,
         };
+        let kd = match kind {
+            TrackerKind::Kd => {
+                let settings = spec.kd.settings(|part| spec.node(part));
+                let mut tracker = KdTracker::new(actor.body(), settings, frame_secs, &now);
+                let prop = |name: &String| self.cast.prop(name).ok_or_else(|| format!("no prop `{name}`"));
+                let stands_on = spec.kd.stands_on.as_ref().map(prop).transpose()?;
+                tracker.stand_on(&self.world, stands_on);
+                match &actor.motion {
+                    // It is in the middle of its motion when it begins.
+                    Some(motion) if self.world.frame().step == 0 => {
+                        let step_secs = self.world.settings().step_secs();
+                        tracker.restart(actor.body(), &motion.pose_before(0.0, frame_secs), &now, step_secs);
+                        tracker.launch(&mut self.world, index);
+                    }
+                    _ if self.world.frame().step > 0 => tracker.begin_where_it_is(TAKE_OVER_SECS),
+                    _ => {}
+                }
+                Some(tracker)
+            }
+            _ => None,
+        };
+        let actor = &mut self.actors[index];
         match actor.tracker {
             TrackerKind::Kinematic => (0..Node::COUNT).for_each(|at| self.world.set_forces(index, Node::ALL[at], true)),
-            TrackerKind::Response => self.world.set_limp(index),
+            TrackerKind::Response | TrackerKind::Kd => self.world.set_limp(index),
             TrackerKind::Pd | TrackerKind::None => {}
         }
         actor.kinematic = (kind == TrackerKind::Kinematic).then(|| KinematicTracker::new(frame_secs, &now));
         actor.response = response;
+        actor.kd = kd;
         actor.stand = (now.hips_position, now.world[0]);
+        actor.sole_m = (kind == TrackerKind::Kd).then_some(spec.position_m[1]);
+        actor.moved_root = actor.moves_root();
         match kind {
             TrackerKind::None => self.world.set_limp(index),
             TrackerKind::Pd => self.actors[index].take_over(&self.world),
+            TrackerKind::Kd => self.stand_here(index),
             TrackerKind::Kinematic | TrackerKind::Response => {}
         }
         self.actors[index].tracker = kind;
         Ok(())
     }
 }
+
+/// How long a body takes to come to what is wanted when the tracker `kd` begins amid a run \[s\].
+const TAKE_OVER_SECS: f64 = 0.5;

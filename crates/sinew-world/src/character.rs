@@ -4,11 +4,12 @@ use crate::borne::Borne;
 use crate::engine::Engine;
 use crate::extra_shape::ExtraShape;
 use crate::joint::{LimitSpring, Start, write_ball, write_hinge};
+use crate::pin::pin_force;
 use crate::ragdoll::{is_hinge, part_inertia};
 use crate::{CharacterSpec, Drive, Pin};
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
-use sinew_body::humanoid::{Body, Node, log};
+use sinew_body::humanoid::{Body, Node};
 
 /// How a part takes part in the physics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,24 +178,4 @@ impl Load {
         self.force += force;
         self.moment += at.cross(force) + torque;
     }
-}
-
-/// Force \[N\] and torque \[N m\] of a pin on a body with these moments of inertia along its axes. (The library's own are along
-/// axes that it chooses: with those of another axis the torque is no longer stable.)
-fn pin_force(body: &RigidBody, inertia: DVec3, pin: &Pin, step_secs: f64, gravity: DVec3) -> (DVec3, DVec3) {
-    let (h, k, d) = (step_secs, pin.stiffness, pin.damping);
-    let scale = 1.0 / (1.0 + h * d + h * h * k);
-    let centre = pin.position + pin.rotation * body.local_center_of_mass();
-    let slip = pin.velocity - body.linvel();
-    let acceleration = ((centre - body.center_of_mass() + slip * h) * k + slip * d) * scale;
-    let force = acceleration * body.mass() - gravity * (body.mass() * pin.gravity_share);
-
-    let spin = pin.angular_velocity - body.angvel();
-    let turn = log(pin.rotation * body.rotation().conjugate());
-    let turning = ((turn + spin * h) * k + spin * d) * scale;
-    let rotation = DMat3::from_quat(*body.rotation());
-    let torque = rotation * (DMat3::from_diagonal(inertia) * (rotation.transpose() * turning));
-
-    let cut = (pin.max_force_n / force.length().max(1e-9)).min(1.0);
-    (force * cut, torque * cut)
 }

@@ -23,27 +23,3 @@ impl Drive {
         Drive { rotation: DQuat::IDENTITY, velocity: DVec3::ZERO, stiffness: 0.0, damping, torque: DVec3::ZERO }
     }
 }
-
-/// What holds a part to its place in the world: a spring per unit of mass and inertia, implicit.
-///
-/// F = m (k (x̂ − x + h Δv) + d Δv) / (1 + h d + h² k) with Δv = v̂ − v and the step h, and the same with the inertia for
-/// the turn: stable at any k and d, because it is the force of the step's end.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pin {
-    /// Wanted place of the part's joint \[m\].
-    pub position: DVec3,
-    /// Wanted `world_from_part`.
-    pub rotation: DQuat,
-    /// Wanted velocity of the centre of mass \[m/s\].
-    pub velocity: DVec3,
-    /// Wanted angular velocity \[rad/s\].
-    pub angular_velocity: DVec3,
-    /// Stiffness per unit mass, and per unit inertia \[1/s²\].
-    pub stiffness: f64,
-    /// Damping per unit mass, and per unit inertia \[1/s\].
-    pub damping: f64,
-    /// Share of the part's weight that is carried, 0 to 1.
-    pub gravity_share: f64,
-    /// Largest force \[N\]; the torque is cut in the same proportion.
-    pub max_force_n: f64,
-}

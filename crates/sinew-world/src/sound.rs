@@ -16,8 +16,11 @@ pub(crate) const MAX_SPEED_M_S: f64 = 400.0;
 /// Largest angular velocity that is given to anything \[rad/s\]: beyond it a step turns a part by more than half a turn.
 pub(crate) const MAX_SPIN_RAD_S: f64 = 500.0;
 
-/// Largest torque of a [`Drive`] \[N m\].
+/// Largest torque of a [`Drive`], or of a [`Pin`] on top of its spring \[N m\].
 const MAX_TORQUE_N_M: f64 = 1e4;
+
+/// Largest acceleration that a [`Pin`] asks for \[m/s²\].
+const MAX_ACCELERATION_M_S2: f64 = 1e5;
 
 /// Largest factor on gravity.
 const MAX_GRAVITY_SCALE: f64 = 100.0;
@@ -82,15 +85,18 @@ pub(crate) fn drive(drive: Drive) -> Option<Drive> {
 
 /// A pin that the solver can take; `None` as for [`drive`].
 pub(crate) fn pin(pin: Pin) -> Option<Pin> {
-    let gains = (0.0..MAX_GAIN).contains(&pin.stiffness) && (0.0..MAX_GAIN).contains(&pin.damping);
+    let gains = [pin.stiffness, pin.damping, pin.turn_stiffness, pin.turn_damping];
+    let gains = gains.iter().all(|gain| (0.0..MAX_GAIN).contains(gain));
     let shares = pin.gravity_share.is_finite() && !pin.max_force_n.is_nan();
-    if !(gains && shares && is_place(pin.position)) {
+    if !(gains && shares && is_place(pin.position) && pin.torque.is_finite() && pin.acceleration.is_finite()) {
         return None;
     }
     Some(Pin {
         rotation: unit(pin.rotation)?,
         velocity: velocity(pin.velocity)?,
         angular_velocity: spin(pin.angular_velocity)?,
+        acceleration: shortened(pin.acceleration, MAX_ACCELERATION_M_S2),
+        torque: shortened(pin.torque, MAX_TORQUE_N_M),
         gravity_share: pin.gravity_share.clamp(0.0, 1.0),
         max_force_n: pin.max_force_n.clamp(0.0, MAX_FORCE_N),
         ..pin

@@ -305,6 +305,20 @@ impl World {
         self.look_at_character(character);
     }
 
+    /// Gives every part of a character its velocity and angular velocity \[m/s, rad/s\]; by [`Node::index`]. What is not finite
+    /// is left out.
+    pub fn set_velocities(&mut self, character: usize, velocities: &[(DVec3, DVec3); Node::COUNT]) {
+        let Some(one) = self.characters.get(character) else { return };
+        for (handle, (velocity, spin)) in one.bodies.into_iter().zip(velocities) {
+            let (Some(velocity), Some(spin)) = (sound::velocity(*velocity), sound::spin(*spin)) else { continue };
+            if let Some(body) = self.engine.bodies.get_mut(handle) {
+                body.set_linvel(velocity, true);
+                body.set_angvel(spin, true);
+            }
+        }
+        self.look_at_character(character);
+    }
+
     /// Puts a prop somewhere else, or gives it another velocity.
     pub fn place_prop(&mut self, prop: usize, position: Option<DVec3>, velocity: Option<DVec3>) {
         let Some(prop) = self.props.get_mut(prop) else { return };

@@ -37,13 +37,13 @@ fn assert_finite(frame: &Frame) {
 fn pin(position: DVec3) -> Pin {
     Pin {
         position,
-        rotation: DQuat::IDENTITY,
-        velocity: DVec3::ZERO,
-        angular_velocity: DVec3::ZERO,
         stiffness: 1e3,
         damping: 50.0,
+        turn_stiffness: 1e3,
+        turn_damping: 50.0,
         gravity_share: 1.0,
         max_force_n: 1e4,
+        ..Pin::LOOSE
     }
 }
 
@@ -140,10 +140,18 @@ fn pins_of_any_numbers_leave_the_frame_finite_and_others_alone() {
             let pin = Pin { stiffness: bad, damping: bad, gravity_share: bad, max_force_n: bad, ..pin(DVec3::Y) };
             world.set_pin(0, Node::Chest, Some(pin));
         });
+        survives(&format!("fed forward {bad}"), |world, _| {
+            let pin = Pin { acceleration: DVec3::Y * bad, torque: DVec3::X * bad, ..pin(DVec3::Y) };
+            world.set_pin(0, Node::Chest, Some(pin));
+        });
     }
     survives("pulled about at any gain", |world, step| {
         let place = DVec3::new(if step % 2 == 0 { 900.0 } else { -900.0 }, 1.0, 0.0);
-        world.set_pin(0, Node::Hips, Some(Pin { stiffness: 9e8, max_force_n: f64::INFINITY, ..pin(place) }));
+        world.set_pin(
+            0,
+            Node::Hips,
+            Some(Pin { stiffness: 9e8, turn_stiffness: 9e8, max_force_n: f64::INFINITY, ..pin(place) }),
+        );
     });
 }
 

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{adult, floor_impulse, hold, spec, standing, steps};
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use sinew_body::humanoid::{Node, exp, log};
 use sinew_world::{Drive, Pin, World, WorldSettings};
 
@@ -109,13 +109,12 @@ fn a_spring_under_a_load_sags_by_load_over_stiffness() {
 fn pin_hips(world: &mut World, position: DVec3) {
     let pin = Pin {
         position,
-        rotation: DQuat::IDENTITY,
-        velocity: DVec3::ZERO,
-        angular_velocity: DVec3::ZERO,
         stiffness: 1e5,
         damping: 1e3,
+        turn_stiffness: 1e5,
+        turn_damping: 1e3,
         gravity_share: 1.0,
-        max_force_n: f64::INFINITY,
+        ..Pin::LOOSE
     };
     world.set_pin(0, Node::Hips, Some(pin));
 }
@@ -132,13 +131,13 @@ fn pins_carry_a_body_at_any_gain_without_exploding() {
             for node in Node::ALL {
                 let pin = Pin {
                     position: positions[node.index()] + DVec3::Y * 0.1,
-                    rotation: DQuat::IDENTITY,
-                    velocity: DVec3::ZERO,
-                    angular_velocity: DVec3::ZERO,
                     stiffness,
                     damping,
+                    turn_stiffness: stiffness,
+                    turn_damping: damping,
                     gravity_share: 1.0,
                     max_force_n: 1e5,
+                    ..Pin::LOOSE
                 };
                 world.set_pin(0, node, Some(pin));
             }
@@ -164,13 +163,10 @@ fn a_pin_pulls_no_harder_than_its_largest_force() {
     let mut world = floating();
     let far = Pin {
         position: DVec3::new(100.0, 1.0, 0.0),
-        rotation: DQuat::IDENTITY,
-        velocity: DVec3::ZERO,
-        angular_velocity: DVec3::ZERO,
         stiffness: 1e4,
-        damping: 0.0,
-        gravity_share: 0.0,
+        turn_stiffness: 1e4,
         max_force_n: 200.0,
+        ..Pin::LOOSE
     };
     world.set_pin(0, Node::Chest, Some(far));
     steps(&mut world, 0.5);

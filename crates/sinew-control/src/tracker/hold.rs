@@ -1,7 +1,8 @@
 //! Pins that carry a body along a moving pose.
 
-use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Node, Pose, log};
+use super::instant::Instant;
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_world::{Drive, Pin, World};
 
 /// How firmly the parts of a body are held to their places.
@@ -12,22 +13,6 @@ pub struct Grip {
     pub frequency_hz: f64,
     /// Largest acceleration that it gives a part on top of carrying its weight \[m/s²\].
     pub max_acceleration: f64,
-}
-
-/// A pose at one instant, as the pins need it.
-#[derive(Clone, Copy, Debug)]
-struct Instant {
-    joints: [DVec3; Node::COUNT],
-    centres: [DVec3; Node::COUNT],
-    rotations: [DQuat; Node::COUNT],
-}
-
-impl Instant {
-    fn of(body: &Body, pose: &Pose) -> Instant {
-        let joints = pose.positions(body);
-        let centre = |node: Node| joints[node.index()] + pose.world[node.index()] * body.link(node).centre;
-        Instant { joints, centres: Node::ALL.map(centre), rotations: pose.world }
-    }
 }
 
 /// How the ground under a pose moves.
@@ -82,7 +67,7 @@ impl Hold {
         let mut spins = [DVec3::ZERO; Node::COUNT];
         for node in Node::ALL {
             let at = node.index();
-            let (back, on) = (turn(&self.before, &self.now, at), turn(&self.now, &next, at));
+            let (back, on) = (self.before.turn(&self.now, at), self.now.turn(&next, at));
             let (behind, ahead) =
                 (self.now.centres[at] - self.before.centres[at], next.centres[at] - self.now.centres[at]);
             let velocity = (behind + ahead) / (2.0 * step_secs) + ground.velocity;
@@ -95,8 +80,11 @@ impl Hold {
                 angular_velocity: spins[at] + (on - back) / (step_secs * step_secs) * lead_secs,
                 stiffness,
                 damping,
+                turn_stiffness: stiffness,
+                turn_damping: damping,
                 gravity_share: 1.0,
                 max_force_n: max_forces[at],
+                ..Pin::LOOSE
             };
             world.set_pin(character, node, Some(pin));
             let Some(parent) = node.parent().map(Node::index) else { continue };
@@ -116,11 +104,6 @@ impl Hold {
         self.before = self.now;
         self.now = next;
     }
-}
-
-/// From one instant to the next, world \[rad\].
-fn turn(from: &Instant, to: &Instant, at: usize) -> DVec3 {
-    log(to.rotations[at] * from.rotations[at].conjugate())
 }
 
 /// What a pin carries of a part's weight comes out of its largest force \[m/s²\].

@@ -5,6 +5,8 @@ mod felt;
 mod gains;
 mod glide;
 mod hold;
+mod instant;
+mod kd;
 mod kinematic;
 mod pd;
 mod response;
@@ -12,6 +14,7 @@ mod tasks;
 
 pub use gains::{Gains, JointGain};
 pub use hold::Grip;
+pub use kd::{KdDamping, KdGains, KdPreset, KdSettings, KdTracker, KdWeight};
 pub use kinematic::KinematicTracker;
 pub use pd::PdTracker;
 pub use response::ResponseTracker;

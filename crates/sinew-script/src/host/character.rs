@@ -5,7 +5,7 @@ pub(super) use character::{Character, module_def};
 #[rustpython_vm::pymodule(name = "_character")]
 #[allow(non_snake_case, reason = "Python's names, as the paper prints them")]
 pub(super) mod character {
-    use crate::host::{drive, sense, stage};
+    use crate::host::{drive, drive_kd, sense, stage};
     use rustpython_vm::builtins::PyUtf8StrRef;
     use rustpython_vm::types::Representable;
     use rustpython_vm::{Py, PyObjectRef, PyPayload, PyResult, VirtualMachine, pyclass};
@@ -169,6 +169,26 @@ pub(super) mod character {
         #[pymethod]
         fn useReflex(&self, reflex: drive::Switch, vm: &VirtualMachine) -> PyResult<()> {
             drive::reflex(vm, self.place, reflex)
+        }
+
+        #[pymethod]
+        fn setWeights(&self, weights: drive_kd::Weights, vm: &VirtualMachine) -> PyResult<()> {
+            drive_kd::weights(vm, self.place, weights)
+        }
+
+        #[pymethod]
+        fn setKd(&self, gains: drive_kd::Kd, vm: &VirtualMachine) -> PyResult<()> {
+            drive_kd::kd(vm, self.place, gains)
+        }
+
+        #[pymethod]
+        fn pinsOff(&self, pins: drive_kd::Pins, vm: &VirtualMachine) -> PyResult<()> {
+            drive_kd::pins(vm, self.place, false, pins)
+        }
+
+        #[pymethod]
+        fn pinsOn(&self, pins: drive_kd::Pins, vm: &VirtualMachine) -> PyResult<()> {
+            drive_kd::pins(vm, self.place, true, pins)
         }
 
         #[pymethod]

@@ -119,7 +119,11 @@ pub(super) struct Switch {
 }
 
 /// Makes the command and sends it.
-fn act(vm: &VirtualMachine, place: usize, action: impl FnOnce(&Stage) -> Result<Action, String>) -> PyResult<()> {
+pub(super) fn act(
+    vm: &VirtualMachine,
+    place: usize,
+    action: impl FnOnce(&Stage) -> Result<Action, String>,
+) -> PyResult<()> {
     raised(
         vm,
         stage::with(|stage| {
@@ -281,13 +285,13 @@ pub(super) fn tracker(vm: &VirtualMachine, place: usize, name: &str) -> PyResult
     })
 }
 
-fn at_least_zero(vm: &VirtualMachine, value: &PyObject, what: &str) -> PyResult<f64> {
+pub(super) fn at_least_zero(vm: &VirtualMachine, value: &PyObject, what: &str) -> PyResult<f64> {
     let number = number(vm, value, what)?;
     if number >= 0.0 { Ok(number) } else { Err(vm.new_value_error(format!("{what} must not be negative: {number}"))) }
 }
 
 /// One part's name, or a tuple or list of names.
-fn parts(vm: &VirtualMachine, place: usize, value: Option<&PyObjectRef>) -> PyResult<Vec<String>> {
+pub(super) fn parts(vm: &VirtualMachine, place: usize, value: Option<&PyObjectRef>) -> PyResult<Vec<String>> {
     let of = |elements: &[PyObjectRef]| -> PyResult<Vec<String>> {
         let of_one = |element: &PyObjectRef| {
             let Some(name) = element.downcast_ref::<PyStr>() else {

@@ -13,6 +13,7 @@ mod character;
 mod console;
 mod controller;
 mod drive;
+mod drive_kd;
 mod fault;
 mod interpreter;
 mod maths;

@@ -2,7 +2,7 @@
 
 use super::error::{Fault, known, shortened};
 use super::range::{colour, count, name as known_name, number, optional, rgb, vector};
-use super::{ResponseSpec, SourceSpec};
+use super::{KdSpec, ResponseSpec, SourceSpec};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_body::humanoid::Node;
@@ -32,6 +32,8 @@ pub struct CharacterSpec {
     pub pose: Option<String>,
     /// How the body follows the wanted pose.
     pub tracker: TrackerKind,
+    /// Settings of the tracker `kd`.
+    pub kd: KdSpec,
     /// Settings of the tracker `response`.
     pub response: ResponseSpec,
     /// Where the wanted pose comes from; the start's pose when left out.
@@ -67,6 +69,8 @@ pub enum TrackerKind {
     /// Springs in the joints.
     #[default]
     Pd,
+    /// Springs in the joints, and forces that hold every part to its place.
+    Kd,
     /// It follows and yields in the directions that its own motion leaves free.
     Response,
     /// Limp.
@@ -108,14 +112,15 @@ pub const REFLEXES: [&str; 1] = ["balance"];
 
 impl TrackerKind {
     /// All of them.
-    pub const ALL: [TrackerKind; 4] =
-        [TrackerKind::Kinematic, TrackerKind::Pd, TrackerKind::Response, TrackerKind::None];
+    pub const ALL: [TrackerKind; 5] =
+        [TrackerKind::Kinematic, TrackerKind::Pd, TrackerKind::Kd, TrackerKind::Response, TrackerKind::None];
 
     /// As scenes and commands name it.
     pub const fn name(self) -> &'static str {
         match self {
             TrackerKind::Kinematic => "kinematic",
             TrackerKind::Pd => "pd",
+            TrackerKind::Kd => "kd",
             TrackerKind::Response => "response",
             TrackerKind::None => "none",
         }
@@ -139,6 +144,7 @@ impl Default for CharacterSpec {
             spin_rad_s: [0.0; 3],
             pose: None,
             tracker: TrackerKind::default(),
+            kd: KdSpec::default(),
             response: ResponseSpec::default(),
             source: None,
             controller: None,
@@ -207,6 +213,7 @@ impl CharacterSpec {
                 "degrees are expected",
             )?;
         }
+        self.kd.check(name)?;
         self.response.check(name)?;
         if let Some(source) = &self.source {
             source.check(name)?;

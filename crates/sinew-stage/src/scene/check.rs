@@ -104,6 +104,7 @@ impl SceneSpec {
                 return Err(Fault::at(&at("")[..2], "a prop has this name too; rename one of the two"));
             }
             spec.check(character)?;
+            spec.kd.check_names(character, self)?;
             spec.response.check_names(character, self)?;
             if let Some(pose) = &spec.pose {
                 name(&at("pose"), "pose", pose, self.pose_names())?;

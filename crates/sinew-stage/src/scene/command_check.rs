@@ -1,6 +1,7 @@
 //! Whether a command fits a scene. Scripts, keys, takes and networks are held to this as the scene's own time line is.
 
 use super::error::{known, shortened};
+use super::kd::{MOST_GAIN, MOST_WEIGHT};
 use super::stage::MOST_SECS;
 use super::{REFLEXES, SceneSpec, TrackerKind};
 use sinew_body::humanoid::Limb;
@@ -151,6 +152,27 @@ impl SceneSpec {
             A::Controller { name } => {
                 self.owner(command)?;
                 if name.is_empty() { Ok(()) } else { self.controller(name) }
+            }
+            A::Weights { parts, pin, joint, fade_secs, for_secs } => {
+                self.owner(command)?;
+                parts.iter().try_for_each(|name| part(name))?;
+                within("pin", pin.unwrap_or(1.0), 0.0..=MOST_WEIGHT)?;
+                within("joint", joint.unwrap_or(1.0), 0.0..=MOST_WEIGHT)?;
+                secs(*fade_secs)?;
+                secs(*for_secs)
+            }
+            A::Kd { k_p, d_p, k_q, d_q, fade_secs, for_secs, .. } => {
+                self.owner(command)?;
+                for (key, gain) in [("k_p", k_p), ("d_p", d_p), ("k_q", k_q), ("d_q", d_q)] {
+                    within(key, gain.unwrap_or(1.0), 0.0..=MOST_GAIN)?;
+                }
+                secs(*fade_secs)?;
+                secs(*for_secs)
+            }
+            A::Pins { fade_secs, for_secs, .. } => {
+                self.owner(command)?;
+                secs(*fade_secs)?;
+                secs(*for_secs)
             }
             A::Tracker { name } => {
                 self.owner(command)?;

@@ -1,0 +1,429 @@
+//! A performer's motion as forces on a body (Nguyen et al. 2010, section 4).
+//!
+//! Two signals act on one simulated body. The kinematic one holds every part to its place in the world,
+//! u_K = k_p (p̂ − p) − d_p ṗ (EQ1); the dynamic one holds every joint to its angles, u_D = k_q I (q̂ − q) − d_q q̇ (EQ2), with I the
+//! inertia of what hangs from the joint. Each has a weight for each part, and the weights change over time.
+//!
+//! Read as printed the two do not hold: see [`KdGains`] for what the numbers mean, [`KdDamping`] for what is damped, and
+//! [`Pin`] for how they are integrated. On top goes what the wanted motion itself needs: each part's m (â − g) in proportion to its
+//! pin's weight, and the torques I α̂ + ω̂ × I ω̂ of all that hangs from a joint. So an undisturbed body follows without lag,
+//! and a disturbed one is no stiffer than its gains.
+
+mod carrier;
+mod ramp;
+mod settings;
+mod slide;
+
+pub use settings::{KdDamping, KdGains, KdPreset, KdSettings, KdWeight};
+
+use super::clock::Clock;
+use super::glide::Glide;
+use super::instant::Instant;
+use carrier::{Carried, Carrier};
+use glam::{DMat3, DVec3};
+use ramp::Ramp;
+use sinew_body::humanoid::{Body, Node, Pose, log};
+use sinew_world::{Drive, Pin, World};
+use slide::Slide;
+
+/// Follows wanted poses with forces on every part and torques in every joint.
+///
+/// Each step of physics: [`physics_step`](KdTracker::physics_step), then [`World::step`]. Where
+/// [`wants_pose`](KdTracker::wants_pose) says so, that is at the start of each motion frame, hand it the pose of the
+/// frame's end first.
+///
+/// Nothing that it is told makes the body jump: weights and gains fade, a performance that begins elsewhere (another source, a
+/// stream that returns, kinematic forces that were off) is met on a way that begins where the body is.
+///
+/// ```
+/// use glam::DVec3;
+/// use sinew_body::humanoid::{Body, Pose};
+/// use sinew_control::tracker::{KdSettings, KdTracker};
+/// use sinew_world::{CharacterSpec, Surface, World, WorldSettings, hips_over_soles_m};
+/// let body = Body::standard(80.0, 1.7);
+/// let mut pose = Pose::STANDING;
+/// pose.hips_position.y = hips_over_soles_m(&body, &pose);
+/// let mut world = World::new(WorldSettings::default());
+/// let spec = CharacterSpec { body: body.clone(), pose, velocity: DVec3::ZERO, surface: Surface::BODY };
+/// let character = world.add_character(spec)?;
+/// let mut tracker = KdTracker::new(&body, KdSettings::default(), 1.0 / 60.0, &pose);
+/// for _ in 0..240 {
+///     if tracker.wants_pose() {
+///         tracker.wanted(&pose);
+///     }
+///     tracker.physics_step(&mut world, character);
+///     world.step();
+/// }
+/// assert!((world.frame().characters[character].parts[0].position - pose.hips_position).length() < 1e-3);
+/// # Ok::<(), sinew_world::SpecError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct KdTracker {
+    /// A factor on each joint's stiffness on top, its root on the damping \[1\]; by [`Node::index`].
+    pub joint_gain: [f64; Node::COUNT],
+    /// A torque on each part against its parent on top, world axes \[N m\]; by [`Node::index`].
+    pub torque: [DVec3; Node::COUNT],
+    settings: KdSettings,
+    gains: [Ramp; 4],
+    /// 1 when pins carry weight: 0 when k_p is nothing.
+    carries: Ramp,
+    /// On all pins: the switch of the kinematic forces.
+    pins: Ramp,
+    pin_weights: [Ramp; Node::COUNT],
+    joint_weights: [Ramp; Node::COUNT],
+    inertias: [DVec3; Node::COUNT],
+    largest_n: [f64; Node::COUNT],
+    clock: Clock,
+    glide: Glide,
+    wanted: Pose,
+    /// The wanted pose of the last step, before and after the slide.
+    raw: Pose,
+    posed: Pose,
+    raw_velocity: DVec3,
+    before: Instant,
+    now: Instant,
+    slide: Option<Slide>,
+    start: Start,
+    carrier: Option<Carrier>,
+}
+
+/// What the next motion frame begins with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Start {
+    /// Goes on.
+    No,
+    /// The body is somewhere: its way to the wanted pose takes this long \[s\].
+    FromBody(f64),
+}
+
+/// Wanted hips that move farther than this within a motion frame have jumped \[m\]: 15 m/s at 60 Hz.
+const JUMP_M: f64 = 0.25;
+
+/// Joints that turn by more than this within a motion frame have jumped \[rad\]: 72 rad/s at 60 Hz.
+const JUMP_RAD: f64 = 1.2;
+
+/// How long a jump is slid over \[s\].
+const JUMP_SECS: f64 = 0.5;
+
+/// Largest force of a pin: of a part of a leg, and of another one \[weights of the body\]. A foot is held so firmly that it would lift
+/// whatever it is under.
+const MOST_WEIGHTS: [f64; 2] = [1.5, 4.0];
+
+/// Friction of a joint that is not held, relative to the inertia of what hangs from it \[1/s\].
+const LIMP_DAMPING: f64 = 1.0;
+
+impl KdTracker {
+    /// At rest in a pose; wanted poses come every `time_step_secs`. `body` is the one that the world's character was made of.
+    pub fn new(body: &Body, settings: KdSettings, time_step_secs: f64, first: &Pose) -> KdTracker {
+        let gains = settings.gains;
+        let now = Instant::of(body, first);
+        let weight_n = body.mass_kg() * 9.81;
+        let most = |node: Node| weight_n * MOST_WEIGHTS[usize::from(!node.is_leg())];
+        KdTracker {
+            joint_gain: [1.0; Node::COUNT],
+            torque: [DVec3::ZERO; Node::COUNT],
+            gains: [gains.k_p, gains.d_p, gains.k_q, gains.d_q].map(Ramp::at),
+            carries: Ramp::at(carries(&gains)),
+            pins: Ramp::at(1.0),
+            pin_weights: settings.weights.map(|weight| Ramp::at(weight.pin)),
+            joint_weights: settings.weights.map(|weight| Ramp::at(weight.joint)),
+            settings,
+            inertias: Node::ALL.map(|node| body.link(node).inertia),
+            largest_n: Node::ALL.map(most),
+            clock: Clock::new(time_step_secs),
+            glide: Glide::rest(first),
+            wanted: *first,
+            raw: *first,
+            posed: *first,
+            raw_velocity: DVec3::ZERO,
+            before: now,
+            now,
+            slide: None,
+            start: Start::No,
+            carrier: None,
+        }
+    }
+
+    /// Goes on from a motion that went from `before` to `now`, one motion frame apart, with steps of physics of this length \[s\].
+    pub fn restart(&mut self, body: &Body, before: &Pose, now: &Pose, step_secs: f64) {
+        self.glide = Glide::rest(before);
+        self.glide.next(now);
+        self.clock = Clock::new(self.clock.time_step_secs());
+        (self.wanted, self.raw, self.posed) = (*now, *now, *now);
+        self.now = Instant::of(body, now);
+        let share = 1.0 - step_secs / self.clock.time_step_secs();
+        self.before = Instant::of(body, &self.glide.at(share));
+        self.raw_velocity = (now.hips_position - before.hips_position) / self.clock.time_step_secs();
+        (self.slide, self.start) = (None, Start::No);
+    }
+
+    /// Begins with the body where and as fast as it is, and takes this long to come to what is wanted \[s\].
+    pub fn begin_where_it_is(&mut self, over_secs: f64) {
+        self.start = Start::FromBody(over_secs.max(0.0));
+    }
+
+    /// Whether the next step of physics begins a motion frame.
+    pub fn wants_pose(&self) -> bool {
+        self.clock.is_due()
+    }
+
+    /// The pose for the end of the motion frame that begins. One that is not finite is passed over.
+    pub fn wanted(&mut self, pose: &Pose) {
+        if pose.is_finite() {
+            self.wanted = *pose;
+        }
+    }
+
+    /// The whole wanted motion is carried along by a prop from now on, as by a car's floor, or by the ground again.
+    pub fn stand_on(&mut self, world: &World, prop: Option<usize>) {
+        self.carrier = prop.and_then(|prop| Carrier::new(world, prop));
+    }
+
+    /// Other gains, reached smoothly within a time \[s\].
+    pub fn set_gains(&mut self, gains: KdGains, fade_secs: f64) {
+        self.before_pins(carries(&gains) * self.pins.end(), fade_secs);
+        for (ramp, to) in self.gains.iter_mut().zip([gains.k_p, gains.d_p, gains.k_q, gains.d_q]) {
+            ramp.aim(to, fade_secs);
+        }
+        self.carries.aim(carries(&gains), fade_secs);
+        self.settings.gains = gains;
+    }
+
+    /// The gains that it goes to.
+    pub fn gains(&self) -> KdGains {
+        self.settings.gains
+    }
+
+    /// What is damped from now on.
+    pub fn set_damping(&mut self, damping: KdDamping) {
+        self.settings.damping = damping;
+    }
+
+    /// Whether the wanted motion's own forces are given on top.
+    pub fn set_feed_forward(&mut self, on: bool) {
+        self.settings.feed_forward = on;
+    }
+
+    /// Other weights of a part, reached smoothly within a time \[s\]; `None` leaves one as it is.
+    pub fn set_weight(&mut self, node: Node, pin: Option<f64>, joint: Option<f64>, fade_secs: f64) {
+        let weight = &mut self.settings.weights[node.index()];
+        if let Some(pin) = pin {
+            weight.pin = pin;
+            self.before_pins(pin * self.carries.end() * self.pins.end(), fade_secs);
+            self.pin_weights[node.index()].aim(pin, fade_secs);
+        }
+        let weight = &mut self.settings.weights[node.index()];
+        if let Some(joint) = joint {
+            weight.joint = joint;
+            self.joint_weights[node.index()].aim(joint, fade_secs);
+        }
+    }
+
+    /// The weights that a part goes to.
+    pub fn weight(&self, node: Node) -> KdWeight {
+        self.settings.weights[node.index()]
+    }
+
+    /// Switches the kinematic forces off (free fall) or on again, smoothly within a time \[s\]. On again, the body is wanted where it
+    /// is, and from there where the performer is.
+    pub fn set_pins(&mut self, on: bool, fade_secs: f64) {
+        self.before_pins(if on { self.carries.end() } else { 0.0 }, fade_secs);
+        self.pins.aim(if on { 1.0 } else { 0.0 }, fade_secs);
+    }
+
+    /// Whether the kinematic forces are on, or come on.
+    pub fn has_pins(&self) -> bool {
+        self.pins.end() > 0.0
+    }
+
+    /// Pins that come on after none held anything find the body somewhere.
+    fn before_pins(&mut self, will_hold: f64, fade_secs: f64) {
+        let common = self.pins.value() * self.carries.value();
+        let held = self.pin_weights.iter().any(|weight| weight.value() > 0.0);
+        if will_hold > 0.0 && !(held && common > 0.0) && self.start == Start::No {
+            self.start = Start::FromBody(fade_secs);
+        }
+    }
+
+    /// Sets pins and drives of a character for the world's next step.
+    pub fn physics_step(&mut self, world: &mut World, character: usize) {
+        let step_secs = world.settings().step_secs();
+        if self.clock.is_due() {
+            self.clock.begin_frame();
+            self.begin_frame();
+        }
+        let raw = self.glide.at(self.clock.advance(step_secs));
+        if let Start::FromBody(secs) = std::mem::replace(&mut self.start, Start::No) {
+            self.slide_from_body(world, character, secs, step_secs);
+        }
+        let mut posed = raw;
+        if let Some(slide) = &mut self.slide {
+            slide.advance(step_secs);
+            posed = slide.added_to(&raw);
+            if slide.is_over() {
+                self.slide = None;
+            }
+        }
+        self.raw_velocity = (raw.hips_position - self.raw.hips_position) / step_secs;
+        (self.raw, self.posed) = (raw, posed);
+        for ramp in self.gains.iter_mut().chain([&mut self.carries, &mut self.pins]) {
+            ramp.advance(step_secs);
+        }
+        for ramp in self.pin_weights.iter_mut().chain(&mut self.joint_weights) {
+            ramp.advance(step_secs);
+        }
+        let Some(body) = world.body(character) else { return };
+        let next = Instant::of(body, &posed);
+        self.hold(world, character, &next, step_secs);
+        self.before = self.now;
+        self.now = next;
+    }
+
+    fn begin_frame(&mut self) {
+        let pose = self.wanted;
+        if has_jumped(self.glide.end(), &pose) {
+            let velocity = self.raw_velocity;
+            self.slide = Some(Slide::between(&self.posed, &pose, velocity, JUMP_SECS));
+            self.glide = Glide::rest(&pose);
+            (self.raw, self.raw_velocity) = (pose, DVec3::ZERO);
+        }
+        self.glide.next(&pose);
+    }
+
+    /// The body is wanted where it is now, as it moves now.
+    fn slide_from_body(&mut self, world: &World, character: usize, over_secs: f64, step_secs: f64) {
+        let Some(frame) = world.frame().characters.get(character) else { return };
+        let (mut pose, hips) = (frame.pose(), frame.part(Node::Hips));
+        let mut velocity = hips.velocity_at(hips.position);
+        if let Some(carried) = self.carrier.and_then(|carrier| carrier.now(world)) {
+            velocity = carried.without(velocity, pose.hips_position);
+            pose.hips_position = carried.place_back(pose.hips_position);
+            pose.world = pose.world.map(|rotation| carried.rotation_back(rotation));
+        }
+        self.slide = Some(Slide::between(&pose, &self.raw, velocity - self.raw_velocity, over_secs));
+        if let Some(body) = world.body(character) {
+            self.now = Instant::of(body, &pose);
+            // It was where its velocity says: no force is fed forward to bring it up to the speed that it has.
+            let mut before = pose;
+            before.hips_position -= velocity * step_secs;
+            self.before = Instant::of(body, &before);
+        }
+    }
+
+    fn hold(&self, world: &mut World, character: usize, next: &Instant, step_secs: f64) {
+        let Some(outboard) = world.outboard_inertias(character).copied() else { return };
+        let carried = self.carrier.and_then(|carrier| carrier.now(world));
+        let [k_p, d_p, k_q, d_q] = self.gains.map(|gain| gain.value());
+        let (pins, carries) = (self.pins.value(), self.carries.value());
+        let is_relative = self.settings.damping == KdDamping::Relative;
+        let mut spins = [DVec3::ZERO; Node::COUNT];
+        let mut torques = [DVec3::ZERO; Node::COUNT];
+        // What a part's turn needs, handed on to its parent: children come after their parents.
+        for node in Node::ALL.into_iter().rev() {
+            let at = node.index();
+            let (back, on) = (self.before.turn(&self.now, at), self.now.turn(next, at));
+            let turning = (on - back) / (step_secs * step_secs);
+            let spin = on / step_secs + turning * (step_secs * 0.5);
+            spins[at] = spin;
+            if self.settings.feed_forward {
+                let rotation = DMat3::from_quat(self.now.rotations[at]);
+                let inertia = rotation * DMat3::from_diagonal(self.inertias[at]) * rotation.transpose();
+                torques[at] += inertia * turning + spin.cross(inertia * spin);
+                if let Some(parent) = node.parent() {
+                    let own = torques[at];
+                    torques[parent.index()] += own;
+                }
+            }
+        }
+        for node in Node::ALL {
+            let at = node.index();
+            let weight = pins * self.pin_weights[at].value();
+            let (stiffness, damping) =
+                (k_p * KdGains::multiple(node) * weight, d_p * (KdGains::multiple(node) * weight).max(0.0).sqrt());
+            let pin = (stiffness + damping > 0.0).then(|| {
+                let (behind, ahead) =
+                    (self.now.centres[at] - self.before.centres[at], next.centres[at] - self.now.centres[at]);
+                let mut acceleration = (ahead - behind) / (step_secs * step_secs);
+                let mut velocity = ahead / step_secs + acceleration * (step_secs * 0.5);
+                let (mut position, mut rotation) = (self.now.joints[at], self.now.rotations[at]);
+                if let Some(carried) = &carried {
+                    velocity = carried.velocity(velocity, carried.place(self.now.centres[at]));
+                    acceleration = carried.direction(acceleration);
+                    (position, rotation) = (carried.place(position), carried.rotation(rotation));
+                }
+                if !is_relative {
+                    // Of k (x̂ + h v̂) − d ẋ as k h v̂ + d v̂ with a slower v̂.
+                    let spring = stiffness * step_secs;
+                    velocity *= spring / (spring + damping);
+                }
+                let share = carries * weight.min(1.0);
+                let fed = if self.settings.feed_forward { share } else { 0.0 };
+                Pin {
+                    position,
+                    rotation,
+                    velocity,
+                    acceleration: acceleration * fed,
+                    torque: if node == Node::Hips { turned(&carried, torques[0]) * fed } else { DVec3::ZERO },
+                    stiffness,
+                    damping,
+                    gravity_share: share,
+                    max_force_n: self.largest_n[at],
+                    ..Pin::LOOSE
+                }
+            });
+            world.set_pin(character, node, pin);
+            let Some(parent) = node.parent().map(Node::index) else { continue };
+            let weight = self.joint_weights[at].value() * self.joint_gain[at].max(0.0);
+            let (rotation, above) = (next.rotations[at], next.rotations[parent]);
+            let velocity = rotation.conjugate() * (spins[at] - spins[parent]);
+            let damping = (d_q * weight.sqrt()).max(LIMP_DAMPING);
+            world.set_drive(
+                character,
+                node,
+                Drive {
+                    rotation: (above.conjugate() * rotation).normalize(),
+                    velocity: if is_relative { velocity } else { DVec3::ZERO },
+                    stiffness: outboard[at] * k_q * weight,
+                    damping: outboard[at] * damping,
+                    torque: self.torque[at] + turned(&carried, torques[at]) * weight.min(1.0),
+                },
+            );
+        }
+    }
+
+    /// The pose that the body is held to at the end of the last step, before a carrier moves it.
+    pub fn pose(&self) -> &Pose {
+        &self.posed
+    }
+
+    /// Gives the body the velocities of the wanted motion, as if it had followed it all along: for a body that begins in it.
+    pub fn launch(&self, world: &mut World, character: usize) {
+        let step_secs = world.settings().step_secs();
+        let velocities: [(DVec3, DVec3); Node::COUNT] = std::array::from_fn(|at| {
+            let shift = self.now.centres[at] - self.before.centres[at];
+            (shift / step_secs, self.before.turn(&self.now, at) / step_secs)
+        });
+        world.set_velocities(character, &velocities);
+    }
+
+    /// Lets all parts go.
+    pub fn release(&self, world: &mut World, character: usize) {
+        world.set_limp(character);
+    }
+}
+
+fn turned(carried: &Option<Carried>, vector: DVec3) -> DVec3 {
+    carried.as_ref().map_or(vector, |carried| carried.direction(vector))
+}
+
+fn carries(gains: &KdGains) -> f64 {
+    if gains.k_p > 0.0 { 1.0 } else { 0.0 }
+}
+
+/// Whether a wanted pose cannot be the motion's next one.
+fn has_jumped(before: &Pose, after: &Pose) -> bool {
+    let turn = |node: Node| log((before.local(node).conjugate() * after.local(node)).normalize()).length();
+    (after.hips_position - before.hips_position).length() > JUMP_M
+        || log((before.world[0].conjugate() * after.world[0]).normalize()).length() > JUMP_RAD
+        || Node::ALL.into_iter().skip(1).any(|node| turn(node) > JUMP_RAD)
+}

@@ -1,0 +1,134 @@
+//! Gains, presets and weights of the tracker `kd` (Nguyen et al. 2010, section 6's table).
+
+use serde::{Deserialize, Serialize};
+use sinew_body::humanoid::Node;
+
+/// The four numbers of Nguyen et al. 2010, EQ1 and EQ2.
+///
+/// They mean per unit of mass and of inertia: read as N/m, 160 lets a trunk sag by 1.5 m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KdGains {
+    /// Stiffness that holds a part to its place, per unit of its mass \[1/s²\]; times [`KdGains::multiple`].
+    pub k_p: f64,
+    /// Its damping, per unit of mass \[1/s\]; times the root of [`KdGains::multiple`], so that the damping ratio is the same everywhere.
+    pub d_p: f64,
+    /// Stiffness of a joint, per unit of the inertia of what hangs from it \[1/s²\].
+    pub k_q: f64,
+    /// Its damping, per unit of inertia \[1/s\].
+    pub d_q: f64,
+}
+
+impl KdGains {
+    /// How much firmer the legs are held than the rest: the ground is what a body's strength comes from
+    /// (Nguyen et al. 2010, section 4.3).
+    pub const fn multiple(node: Node) -> f64 {
+        match node {
+            Node::LeftFoot | Node::RightFoot => 125.0,
+            Node::LeftLowerLeg | Node::RightLowerLeg => 25.0,
+            Node::LeftUpperLeg | Node::RightUpperLeg => 5.0,
+            _ => 1.0,
+        }
+    }
+}
+
+/// The rows of the paper's table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum KdPreset {
+    /// 160, 25, 450, 10.
+    #[default]
+    Default,
+    /// 0, 0, 200, 2: nothing holds it to its place.
+    Balloon,
+    /// 200, 25, 450, 10.
+    Stapler,
+    /// 420, 50, 1200, 15.
+    Giant,
+    /// 1000, 125, 450, 10.
+    Glider,
+}
+
+impl KdPreset {
+    /// All of them.
+    pub const ALL: [KdPreset; 5] =
+        [KdPreset::Default, KdPreset::Balloon, KdPreset::Stapler, KdPreset::Giant, KdPreset::Glider];
+
+    /// As scenes and commands name it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            KdPreset::Default => "default",
+            KdPreset::Balloon => "balloon",
+            KdPreset::Stapler => "stapler",
+            KdPreset::Giant => "giant",
+            KdPreset::Glider => "glider",
+        }
+    }
+
+    /// Its gains.
+    pub const fn gains(self) -> KdGains {
+        let (k_p, d_p, k_q, d_q) = match self {
+            KdPreset::Default => (160.0, 25.0, 450.0, 10.0),
+            KdPreset::Balloon => (0.0, 0.0, 200.0, 2.0),
+            KdPreset::Stapler => (200.0, 25.0, 450.0, 10.0),
+            KdPreset::Giant => (420.0, 50.0, 1200.0, 15.0),
+            KdPreset::Glider => (1000.0, 125.0, 450.0, 10.0),
+        };
+        KdGains { k_p, d_p, k_q, d_q }
+    }
+}
+
+/// What velocity is damped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum KdDamping {
+    /// Against the performer's: what moves with the performer is not slowed.
+    #[default]
+    Relative,
+    /// Against the ground, as EQ1 and EQ2 are printed: everything lags.
+    Absolute,
+}
+
+/// How far a part is held to its place in the world, and its joint to its angles: 1 as the gains say, 0 not at all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KdWeight {
+    /// Factor on k_p, 0 to 100; its root on d_p. Up to 1 it is also the share of the part's weight that is carried.
+    pub pin: f64,
+    /// Factor on k_q, 0 to 100; its root on d_q.
+    pub joint: f64,
+}
+
+impl KdWeight {
+    /// As the gains say.
+    pub const FULL: KdWeight = KdWeight { pin: 1.0, joint: 1.0 };
+}
+
+/// How a body follows a performer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KdSettings {
+    /// Stiffness and damping.
+    pub gains: KdGains,
+    /// What is damped.
+    pub damping: KdDamping,
+    /// The forces that the wanted motion itself needs are given on top, from its accelerations. Without them the body lags.
+    pub feed_forward: bool,
+    /// By [`Node::index`].
+    pub weights: [KdWeight; Node::COUNT],
+}
+
+impl KdSettings {
+    /// A preset, damped against the performer and fed forward, all parts in full.
+    pub const fn of(preset: KdPreset) -> KdSettings {
+        KdSettings {
+            gains: preset.gains(),
+            damping: KdDamping::Relative,
+            feed_forward: true,
+            weights: [KdWeight::FULL; Node::COUNT],
+        }
+    }
+}
+
+impl Default for KdSettings {
+    fn default() -> KdSettings {
+        KdSettings::of(KdPreset::Default)
+    }
+}

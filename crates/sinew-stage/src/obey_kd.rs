@@ -1,0 +1,123 @@
+//! Commands to the tracker `kd`: how firmly a performer's motion holds a body.
+
+use crate::Stage;
+use crate::obey::{listed, number};
+use crate::span::Ending;
+use sinew_body::humanoid::Node;
+use sinew_control::Action;
+use sinew_control::tracker::{KdGains, KdTracker};
+
+/// Gains and switches fade over this time when a command does not say \[s\].
+const FADE_SECS: f64 = 0.5;
+
+impl Stage {
+    /// What was done, in words.
+    pub(crate) fn obey_kd(&mut self, character: usize, action: &Action) -> Result<String, String> {
+        let who = self.cast.characters()[character].clone();
+        let fade = |secs: &Option<f64>| number(secs.unwrap_or(FADE_SECS), "fade_secs").map(|secs| secs.max(0.0));
+        match action {
+            Action::Weights { parts, pin, joint, fade_secs, for_secs } => {
+                let nodes = if parts.is_empty() { Node::ALL.to_vec() } else { self.parts(character, parts)? };
+                let fade_secs = fade(fade_secs)?;
+                let weight = |value: &Option<f64>, what| value.map(|value| number(value, what)).transpose();
+                let (pin, joint) = (weight(pin, "pin")?, weight(joint, "joint")?);
+                let until = self.until(*for_secs)?;
+                let kd = self.kd(character)?;
+                for &node in &nodes {
+                    kd.set_weight(node, pin.map(|pin| pin.max(0.0)), joint.map(|joint| joint.max(0.0)), fade_secs);
+                }
+                for &node in &nodes {
+                    self.spans.end_at(until, Ending::Weights(character, node));
+                }
+                let word = |weight: Option<f64>| weight.map_or("as it was".to_owned(), |weight| weight.to_string());
+                Ok(format!("{who}: pin {} and joint {} on {}", word(pin), word(joint), listed(&nodes)))
+            }
+            Action::Kd { preset, k_p, d_p, k_q, d_q, damping, feed_forward, fade_secs, for_secs } => {
+                let fade_secs = fade(fade_secs)?;
+                let until = self.until(*for_secs)?;
+                let kd = self.kd(character)?;
+                let base = preset.map_or(kd.gains(), |preset| preset.gains());
+                let gain = |value: &Option<f64>, or: f64, what| number(value.unwrap_or(or), what);
+                let gains = KdGains {
+                    k_p: gain(k_p, base.k_p, "k_p")?.max(0.0),
+                    d_p: gain(d_p, base.d_p, "d_p")?.max(0.0),
+                    k_q: gain(k_q, base.k_q, "k_q")?.max(0.0),
+                    d_q: gain(d_q, base.d_q, "d_q")?.max(0.0),
+                };
+                kd.set_gains(gains, fade_secs);
+                if let Some(damping) = damping {
+                    kd.set_damping(*damping);
+                }
+                if let Some(on) = feed_forward {
+                    kd.set_feed_forward(*on);
+                }
+                self.spans.end_at(until, Ending::Kd(character));
+                let KdGains { k_p, d_p, k_q, d_q } = gains;
+                Ok(format!("{who}: k_p {k_p}, d_p {d_p}, k_q {k_q}, d_q {d_q}"))
+            }
+            Action::Pins { on, fade_secs, for_secs } => {
+                let fade_secs = fade(fade_secs)?;
+                let until = self.until(*for_secs)?;
+                self.switch_pins(character, *on, fade_secs)?;
+                self.spans.end_at(until, Ending::Pins(character));
+                Ok(format!("{who}: kinematic forces are {}", if *on { "on" } else { "off" }))
+            }
+            _ => Err("this is no command to the tracker kd".to_owned()),
+        }
+    }
+
+    /// Undoes what has lasted for its time; what was done, in words, unless the character follows in another way by now.
+    pub(crate) fn end_kd(&mut self, ending: &Ending) -> Option<String> {
+        let (Ending::Weights(character, _) | Ending::Kd(character) | Ending::Pins(character)) = *ending else {
+            return None;
+        };
+        let who = self.cast.characters().get(character)?.clone();
+        if *ending == Ending::Pins(character) {
+            let on = !self.kd(character).ok()?.has_pins();
+            self.switch_pins(character, on, FADE_SECS).ok()?;
+            return Some(format!("{who}: kinematic forces are {}", if on { "on" } else { "off" }));
+        }
+        let scene = std::sync::Arc::clone(&self.scene);
+        let spec = scene.characters.values().nth(character)?;
+        let settings = spec.kd.settings(|part| spec.node(part));
+        let kd = self.kd(character).ok()?;
+        match ending {
+            Ending::Weights(_, node) => {
+                let weight = settings.weights[node.index()];
+                kd.set_weight(*node, Some(weight.pin), Some(weight.joint), FADE_SECS);
+                Some(format!("{who}: {} is held as before", node.part()))
+            }
+            _ => {
+                kd.set_gains(settings.gains, FADE_SECS);
+                kd.set_damping(settings.damping);
+                kd.set_feed_forward(settings.feed_forward);
+                Some(format!("{who}: gains are as before"))
+            }
+        }
+    }
+
+    fn switch_pins(&mut self, character: usize, on: bool, fade_secs: f64) -> Result<(), String> {
+        let kd = self.kd(character)?;
+        let comes_on = on && !kd.has_pins();
+        kd.set_pins(on, fade_secs);
+        if comes_on && !self.actors[character].moves_root() {
+            self.stand_here(character);
+        }
+        Ok(())
+    }
+
+    /// A source that knows no place has the hips stand where they are now.
+    pub(crate) fn stand_here(&mut self, character: usize) {
+        let Some(frame) = self.world.frame().characters.get(character) else { return };
+        let facing = frame.facing;
+        let turn = glam::DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
+        self.actors[character].stand = (frame.parts[0].position, turn);
+    }
+
+    fn kd(&mut self, character: usize) -> Result<&mut KdTracker, String> {
+        self.actors[character]
+            .kd
+            .as_mut()
+            .ok_or_else(|| "it does not follow by kd; give it tracker = \"kd\"".to_owned())
+    }
+}

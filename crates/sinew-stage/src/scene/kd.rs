@@ -1,0 +1,135 @@
+//! How a character follows a performer: the settings of its tracker `kd`.
+
+use super::SceneSpec;
+use super::error::Fault;
+use super::range::{name as known_name, number, optional};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use sinew_body::humanoid::Node;
+use sinew_control::tracker::{KdDamping, KdGains, KdPreset, KdSettings};
+use std::collections::BTreeMap;
+
+/// Settings of the tracker `kd`. They are only looked at by it.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct KdSpec {
+    /// Gains for a purpose.
+    pub preset: KdPreset,
+    /// In place of the preset's: stiffness that holds parts to their places \[1/s², per unit mass\].
+    pub k_p: Option<f64>,
+    /// Its damping \[1/s, per unit mass\].
+    pub d_p: Option<f64>,
+    /// Stiffness of joints \[1/s², per unit of the inertia of what hangs from them\].
+    pub k_q: Option<f64>,
+    /// Its damping \[1/s, per unit of inertia\].
+    pub d_q: Option<f64>,
+    /// Against the performer's velocity, or against the ground as the paper prints it.
+    pub damping: KdDamping,
+    /// Give the forces that the performer's motion itself needs.
+    pub feed_forward: bool,
+    /// How far single parts are held, by part or alias.
+    pub weights: BTreeMap<String, WeightSpec>,
+    /// A prop that carries the performer's whole stage along, such as a car.
+    pub stands_on: Option<String>,
+}
+
+/// How far a part is held: 1 as the gains say, 0 not at all.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct WeightSpec {
+    /// To its place, 0 to 100.
+    pub pin: f64,
+    /// Its joint to its angles, 0 to 100.
+    pub joint: f64,
+}
+
+impl Default for KdSpec {
+    fn default() -> KdSpec {
+        KdSpec {
+            preset: KdPreset::Default,
+            k_p: None,
+            d_p: None,
+            k_q: None,
+            d_q: None,
+            damping: KdDamping::Relative,
+            feed_forward: true,
+            weights: BTreeMap::new(),
+            stands_on: None,
+        }
+    }
+}
+
+impl Default for WeightSpec {
+    fn default() -> WeightSpec {
+        WeightSpec { pin: 1.0, joint: 1.0 }
+    }
+}
+
+impl KdSpec {
+    /// For the tracker; `node` finds a part by the character's own names.
+    pub(crate) fn settings(&self, node: impl Fn(&str) -> Option<Node>) -> KdSettings {
+        let mut settings = KdSettings {
+            gains: self.gains(),
+            damping: self.damping,
+            feed_forward: self.feed_forward,
+            ..KdSettings::default()
+        };
+        for (part, weight) in &self.weights {
+            if let Some(node) = node(part) {
+                let own = &mut settings.weights[node.index()];
+                (own.pin, own.joint) = (weight.pin, weight.joint);
+            }
+        }
+        settings
+    }
+
+    /// The preset's gains with those in place of them.
+    pub fn gains(&self) -> KdGains {
+        let preset = self.preset.gains();
+        KdGains {
+            k_p: self.k_p.unwrap_or(preset.k_p),
+            d_p: self.d_p.unwrap_or(preset.d_p),
+            k_q: self.k_q.unwrap_or(preset.k_q),
+            d_q: self.d_q.unwrap_or(preset.d_q),
+        }
+    }
+
+    pub(super) fn check(&self, name: &str) -> Result<(), Fault> {
+        let at = |key| ["characters", name, "kd", key];
+        for (key, value, hint) in [
+            ("k_p", self.k_p, "160 per second squared is usual"),
+            ("d_p", self.d_p, "25 per second is usual"),
+            ("k_q", self.k_q, "450 per second squared is usual"),
+            ("d_q", self.d_q, "10 per second is usual"),
+        ] {
+            optional(&at(key), value, 0.0..=MOST_GAIN, hint)?;
+        }
+        for (part, weight) in &self.weights {
+            let at = |key| ["characters", name, "kd", "weights", part, key];
+            number(&at("pin"), weight.pin, 0.0..=MOST_WEIGHT, "1 is as the gains say")?;
+            number(&at("joint"), weight.joint, 0.0..=MOST_WEIGHT, "1 is as the gains say")?;
+        }
+        Ok(())
+    }
+
+    /// Whether what it names exists; `name` is the character's.
+    pub(super) fn check_names(&self, name: &str, scene: &SceneSpec) -> Result<(), Fault> {
+        if let Some(prop) = &self.stands_on {
+            let at = ["characters", name, "kd", "stands_on"];
+            known_name(&at, "prop", prop, scene.props.keys().map(String::as_str))?;
+        }
+        let Some(character) = scene.characters.get(name) else { return Ok(()) };
+        for part in self.weights.keys() {
+            if character.node(part).is_none() {
+                return Err(Fault::at(&["characters", name, "kd", "weights", part], character.no_part(part)));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Largest gain of the tracker `kd`.
+pub(super) const MOST_GAIN: f64 = 1e5;
+
+/// Largest weight of a part.
+pub(super) const MOST_WEIGHT: f64 = 100.0;

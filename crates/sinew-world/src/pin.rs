@@ -1,0 +1,83 @@
+//! What holds a part to its place in the world.
+
+use glam::{DMat3, DQuat, DVec3};
+use rapier3d_f64::prelude::RigidBody;
+use sinew_body::humanoid::log;
+
+/// What holds a part to its place in the world: a spring per unit of mass and inertia, implicit.
+///
+/// F = m (k (x̂ − x + h Δv) + d Δv + â) / (1 + h d + h² k) with Δv = v̂ − v and the step h, and the same with the inertia for
+/// the turn: stable at any k and d, because it is the force of the step's end.
+///
+/// A part that is where it should be, as fast as it should be, gets the acceleration â when v̂ is the velocity of the step's
+/// end. With â = 0 it lags.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pin {
+    /// Wanted place of the part's joint \[m\].
+    pub position: DVec3,
+    /// Wanted `world_from_part`.
+    pub rotation: DQuat,
+    /// Wanted velocity of the centre of mass \[m/s\].
+    pub velocity: DVec3,
+    /// Wanted angular velocity \[rad/s\].
+    pub angular_velocity: DVec3,
+    /// Wanted acceleration of the centre of mass, given to it on top of the spring \[m/s²\].
+    pub acceleration: DVec3,
+    /// Torque on top of the spring \[N m\].
+    pub torque: DVec3,
+    /// Stiffness per unit mass \[1/s²\].
+    pub stiffness: f64,
+    /// Damping per unit mass \[1/s\].
+    pub damping: f64,
+    /// Stiffness of the turn per unit inertia \[1/s²\].
+    pub turn_stiffness: f64,
+    /// Damping of the turn per unit inertia \[1/s\].
+    pub turn_damping: f64,
+    /// Share of the part's weight that is carried, 0 to 1.
+    pub gravity_share: f64,
+    /// Largest force \[N\]; the torque is cut in the same proportion.
+    pub max_force_n: f64,
+}
+
+impl Pin {
+    /// At the origin, without any force: to be filled in.
+    pub const LOOSE: Pin = Pin {
+        position: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+        velocity: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
+        acceleration: DVec3::ZERO,
+        torque: DVec3::ZERO,
+        stiffness: 0.0,
+        damping: 0.0,
+        turn_stiffness: 0.0,
+        turn_damping: 0.0,
+        gravity_share: 0.0,
+        max_force_n: f64::INFINITY,
+    };
+}
+
+/// Force \[N\] and torque \[N m\] of a pin on a body with these moments of inertia along its axes. (The library's own are along
+/// axes that it chooses: with those of another axis the torque is no longer stable.)
+pub(crate) fn pin_force(body: &RigidBody, inertia: DVec3, pin: &Pin, step_secs: f64, gravity: DVec3) -> (DVec3, DVec3) {
+    let (h, k, d) = (step_secs, pin.stiffness, pin.damping);
+    let scale = 1.0 / (1.0 + h * d + h * h * k);
+    let centre = pin.position + pin.rotation * body.local_center_of_mass();
+    let slip = pin.velocity - body.linvel();
+    let acceleration = ((centre - body.center_of_mass() + slip * h) * k + slip * d + pin.acceleration) * scale;
+    let force = acceleration * body.mass() - gravity * (body.mass() * pin.gravity_share);
+
+    let (k, d) = (pin.turn_stiffness, pin.turn_damping);
+    let mut torque = pin.torque;
+    if k + d > 0.0 {
+        let scale = 1.0 / (1.0 + h * d + h * h * k);
+        let spin = pin.angular_velocity - body.angvel();
+        let turn = log(pin.rotation * body.rotation().conjugate());
+        let turning = ((turn + spin * h) * k + spin * d) * scale;
+        let rotation = DMat3::from_quat(*body.rotation());
+        torque += rotation * (DMat3::from_diagonal(inertia) * (rotation.transpose() * turning));
+    }
+
+    let cut = (pin.max_force_n / force.length().max(1e-9)).min(1.0);
+    (force * cut, torque * cut)
+}
