@@ -99,6 +99,19 @@ impl Limit {
             && twist >= self.twist.0 - BOUNDARY_SLACK
     }
 
+    /// The `parent_from_node` rotation itself if it lies in the range; else the one whose swing is cut back to the ellipse, in
+    /// its own direction, and whose twist is cut back to the interval.
+    pub fn clamp(&self, local: DQuat) -> DQuat {
+        let (x, z, twist) = swing_twist(self.centre.conjugate() * local);
+        let ratio = self.swing_ratio(x, z);
+        let kept = twist.clamp(self.twist.0, self.twist.1.max(self.twist.0));
+        if ratio <= 1.0 && kept == twist {
+            return local;
+        }
+        let share = 1.0 / ratio.max(1.0);
+        (self.centre * exp(DVec3::new(x * share, 0.0, z * share)) * exp(DVec3::Y * kept)).normalize()
+    }
+
     /// Widens the range, no further than needed, so that it contains a `parent_from_node` rotation.
     pub fn widen(&mut self, local: DQuat) {
         let (x, z, twist) = swing_twist(self.centre.conjugate() * local);

@@ -15,7 +15,7 @@ mod sole;
 
 pub use body::{Body, Link, Shape};
 pub use leg::{LegPose, shift_within_reach, solve_leg};
-pub use limb::{Limb, LimbGoal, LimbTurns, solve_limb};
+pub use limb::{Limb, LimbGoal, LimbTurns, TurnedLimb, solve_limb, solve_limb_turned};
 pub use limit::{Limit, Swing};
 pub use node::{Axis, Dof, LEGS, Node, UPPER_DOFS, UPPER_NODES, upper_dofs};
 pub use overlay::{Deviation, Overlay};

@@ -1,0 +1,131 @@
+//! An arm or a leg whose hand or foot is to have a turn of its own in the world: seven degrees of freedom.
+
+use super::aim::{Aim, Flexed};
+use super::hinge::{Hinge, Side};
+use super::sweep::Sweep;
+use super::{Limb, LimbGoal, LimbTurns, place, swivel};
+use crate::humanoid::rotation::{exp, log, swing_twist};
+use crate::humanoid::{Body, Swing};
+use glam::{DQuat, DVec3};
+
+/// The turns that bring a limb to its goal and its hand or foot to the turn wanted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnedLimb {
+    /// Upper and lower bone. The forearm's turn about itself, which carries the hand, is in `turns.lower`.
+    pub turns: LimbTurns,
+    /// `parent_from_node` of the hand or foot, inside its limit. A wrist does not turn about the forearm's line, an ankle does.
+    pub end: DQuat,
+    /// How far the hand or foot stays from the turn wanted \[rad\].
+    pub end_miss_rad: f64,
+}
+
+/// How much more the upper joint's limit counts than the wrist's or ankle's, where both cannot be kept.
+const UPPER_WEIGHT: f64 = 4.0;
+
+/// Misses beyond this make a limb that cannot have the turn look for the target once more \[m\].
+const MISSED: f64 = 1e-9;
+
+/// The turns that bring a limb to its goal with the hand or foot turned as `world_from_end` says; `goal.end` is not read. `None`
+/// when a number is not finite or the limb has no length.
+///
+/// The wrist's place follows from the goal, the elbow's flexion from the wrist's distance, and the swivel is the nearest to
+/// `goal.near` at which the shoulder, the forearm's turn and the wrist all stay inside their limits; too short a limb keeps the
+/// turn and falls short. Where no swivel is inside, the place goes before the turn: the hand is turned as far as its joints let it,
+/// and the effector comes to the target all the same if it can.
+///
+/// ```
+/// use glam::{DQuat, DVec3};
+/// use sinew_body::humanoid::{Body, Limb, LimbGoal, exp, solve_limb_turned};
+///
+/// let body = Body::standard(80.0, 1.7);
+/// // The left palm faces down at the height of the elbow, 40 cm in front of the shoulder.
+/// let goal = LimbGoal {
+///     joint: DVec3::new(0.19, 1.4, 0.0),
+///     world_from_parent: DQuat::IDENTITY,
+///     end: DQuat::IDENTITY,
+///     effector: DVec3::ZERO,
+///     target: DVec3::new(0.19, 1.15, 0.4),
+///     near: [DQuat::IDENTITY; 2],
+/// };
+/// let hand = exp(DVec3::X * -1.5) * exp(DVec3::Y * -1.5);
+/// let solved = solve_limb_turned(&body, Limb::LeftArm, &goal, hand).expect("a sound goal");
+/// assert!(solved.turns.miss_m < 1e-9 && solved.end_miss_rad < 1e-9);
+/// ```
+pub fn solve_limb_turned(body: &Body, limb: Limb, goal: &LimbGoal, world_from_end: DQuat) -> Option<TurnedLimb> {
+    if !goal.is_finite() || !world_from_end.is_finite() {
+        return None;
+    }
+    let world_from_end = world_from_end.normalize();
+    let [upper, lower, end] = limb.nodes();
+    let elbow = body.link(lower).offset;
+    let hinge = Hinge::new(&body.link(lower).limit, limb, goal.near[1], elbow, body.link(end).offset);
+    if !hinge.is_sound() {
+        return None;
+    }
+    let wrist = LimbGoal { target: goal.target - world_from_end * goal.effector, ..*goal };
+    let aim = Aim::new(&wrist, elbow, body.link(end).offset);
+    // The hand in the frame of what the limb hangs from.
+    let hand = goal.world_from_parent.conjugate() * world_from_end;
+    let (upper_limit, end_limit) = (&body.link(upper).limit, &body.link(end).limit);
+    let twist_range = body.link(lower).limit.twist;
+    let sweeps = |way: &Flexed| {
+        let wrist = if limb.is_leg() {
+            let left = end_limit.centre.conjugate() * (way.straight * way.flexion).conjugate();
+            Sweep::new(left, -way.to, hand, &end_limit.swing, end_limit.twist)
+        } else {
+            // From the hand to the bent elbow: a swing, the wrist's backward, and a twist, the forearm's backward.
+            let range = (-twist_range.1, -twist_range.0);
+            Sweep::new(hand.conjugate(), way.to, way.straight * way.flexion, &backward(&end_limit.swing), range)
+        };
+        [way.upper_sweep(upper_limit), wrist]
+    };
+    let fits = |way: &Flexed| swivel::nearest(&sweeps(way));
+    let soft = hinge.softened(aim.distance);
+    let bent = aim.flexed(&hinge, Side::Bent, soft)?;
+    let found = fits(&bent).map(|angle| (angle, bent)).or_else(|| aim.straighter(&hinge, soft, fits));
+    let fitted = found.is_some();
+    let (angle, way) = found.unwrap_or_else(|| {
+        let [shoulder, wrist] = sweeps(&bent);
+        (swivel::least(&[(shoulder, UPPER_WEIGHT), (wrist, 1.0)]), bent)
+    });
+    let wanted = way.swivelled(angle);
+    let upper_turn = upper_limit.clamp(wanted);
+    let end_in_elbow = (upper_turn * way.flexion).conjugate() * hand;
+    let (lower_turn, end_turn) = if limb.is_leg() {
+        (way.flexion, end_limit.clamp(end_in_elbow))
+    } else {
+        let (x, z, twist) = swing_twist(end_in_elbow.conjugate());
+        let carried = exp(DVec3::Y * (-twist).clamp(twist_range.0, twist_range.1));
+        ((way.flexion * carried).normalize(), end_limit.clamp(exp(DVec3::new(-x, 0.0, -z))))
+    };
+    let in_lower = body.link(end).offset + end_turn * goal.effector;
+    let arrived = upper_turn * (elbow + lower_turn * in_lower);
+    let line = goal.world_from_parent.conjugate() * (goal.target - goal.joint);
+    let turns = LimbTurns {
+        upper: upper_turn,
+        lower: lower_turn,
+        miss_m: (arrived - line).length(),
+        excess_rad: upper_limit.excess(wanted),
+    };
+    let solved = |turns: LimbTurns| TurnedLimb {
+        turns,
+        end: end_turn,
+        end_miss_rad: log((turns.upper * turns.lower * end_turn).conjugate() * hand).length(),
+    };
+    let first = solved(turns);
+    if fitted || turns.miss_m <= MISSED {
+        return Some(first);
+    }
+    let again = LimbGoal { end: end_turn, near: [upper_turn, lower_turn], ..*goal };
+    place(body, limb, &again, |hinge| hinge.side_of(lower_turn)).map(solved)
+}
+
+/// The ellipse of the turns the other way.
+fn backward(swing: &Swing) -> Swing {
+    Swing {
+        x_negative: swing.x_positive,
+        x_positive: swing.x_negative,
+        z_negative: swing.z_positive,
+        z_positive: swing.z_negative,
+    }
+}
