@@ -6,3 +6,4 @@ pub mod golden;
 pub mod page;
 pub mod readme;
 pub mod repository;
+pub mod two_hosts;

@@ -1,9 +1,12 @@
 //! `cargo xtask`.
 
 use std::process::ExitCode;
+use xtask::repository::root;
 
 const USAGE: &str = "\
 cargo xtask check    format, lints, documentation, tests, crates that stand alone, the README's commands
+cargo xtask two-hosts [SCENE KEY]    a session on three network hosts (Linux network namespaces, as root): two actors with 80 ms
+                     between them and the stage, one of them killed and back; checks hashes and times. KEY pulls.
 
 It stops at the first failure with exit code 1. Tests on captured motion need the shared folder: beside the repository, or
 named by SINEW_SHARED. Where it is found they must run; where it is missing the check says how many were skipped.";
@@ -11,13 +14,9 @@ named by SINEW_SHARED. Where it is found they must run; where it is missing the 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["check"] => match xtask::check::run() {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(problem) => {
-                eprintln!("xtask: {problem}");
-                ExitCode::from(1)
-            }
-        },
+        ["check"] => end(xtask::check::run()),
+        ["two-hosts"] => end(xtask::two_hosts::run(&root().join("scenes/tug-of-war.toml"), "p")),
+        ["two-hosts", scene, key] => end(xtask::two_hosts::run(scene.as_ref(), key)),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");
             ExitCode::SUCCESS
@@ -25,6 +24,16 @@ fn main() -> ExitCode {
         _ => {
             eprintln!("{USAGE}");
             ExitCode::from(2)
+        }
+    }
+}
+
+fn end(result: Result<(), String>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("xtask: {problem}");
+            ExitCode::from(1)
         }
     }
 }

@@ -87,9 +87,15 @@ pub(super) fn server_name() -> &'static str {
     NAME
 }
 
+/// What is sent before the first answer \[bytes\]: a few frames.
+const FIRST_WINDOW: u64 = 48 << 10;
+
 fn transport() -> Result<TransportConfig, SessionError> {
+    let mut window = quinn::congestion::CubicConfig::default();
+    window.initial_window(FIRST_WINDOW);
     let mut transport = TransportConfig::default();
     transport
+        .congestion_controller_factory(Arc::new(window))
         .max_idle_timeout(Some(IdleTimeout::try_from(IDLE).map_err(machine)?))
         .keep_alive_interval(Some(Duration::from_secs(1)))
         .initial_rtt(Duration::from_millis(100));

@@ -159,6 +159,11 @@ async fn accept(endpoint: quinn::Endpoint, house: Arc<House>) {
     let mut guest = 0;
     while let Some(incoming) = endpoint.accept().await {
         let from = incoming.remote_address().ip();
+        if !incoming.remote_address_validated() && incoming.may_retry() && are_many(&strangers) {
+            // Whoever writes under false addresses never gets the answer, and so takes no place.
+            let _ = incoming.retry();
+            continue;
+        }
         let pass = {
             let mut known = strangers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             let all: usize = known.values().sum();
@@ -185,6 +190,12 @@ async fn accept(endpoint: quinn::Endpoint, house: Arc<House>) {
             guest::receive(house, guest, connection, pass).await;
         });
     }
+}
+
+/// Whether so many strangers are here that each has to show that it is where it says.
+fn are_many(strangers: &Mutex<BTreeMap<IpAddr, usize>>) -> bool {
+    let known = strangers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    known.values().sum::<usize>() >= MOST_STRANGERS_OF_ONE / 2
 }
 
 /// A connection that has not shown the secret yet. It is counted until it is dropped.

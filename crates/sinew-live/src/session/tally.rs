@@ -4,6 +4,7 @@ use super::SessionError;
 use serde::Serialize;
 use sinew_world::Frame;
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 /// What a client has received. Its size does not grow with the session's length.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -35,15 +36,20 @@ pub struct Tally {
     pub sent: Vec<SentOrder>,
     /// What the server did not pass on, with its reason: the last [`Tally::MOST_SENT`].
     pub not_passed: Vec<String>,
+    /// When the newest frame arrived.
+    #[serde(skip)]
+    arrived: Option<Instant>,
 }
 
 /// Something that a client sent.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SentOrder {
     /// A key, or the command's word.
     pub what: String,
     /// Step of the newest frame that had arrived.
     pub seen_step: u64,
+    /// Time since it had \[ms\].
+    pub since_ms: f64,
 }
 
 impl Tally {
@@ -65,6 +71,7 @@ impl Tally {
         let is_newer = self.last_step.is_none_or(|last| frame.step > last);
         if is_newer {
             self.last_step = Some(frame.step);
+            self.arrived = Some(Instant::now());
         } else {
             self.frames_late += 1;
         }
@@ -73,7 +80,8 @@ impl Tally {
 
     pub(super) fn note_sent(&mut self, what: String) {
         let seen_step = self.last_step.unwrap_or(0);
-        push_last(&mut self.sent, SentOrder { what, seen_step });
+        let since_ms = self.arrived.map_or(0.0, |arrived| arrived.elapsed().as_secs_f64() * 1e3);
+        push_last(&mut self.sent, SentOrder { what, seen_step, since_ms });
     }
 
     pub(super) fn note_not_passed(&mut self, problem: String) {

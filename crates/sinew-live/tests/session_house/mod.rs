@@ -1,0 +1,139 @@
+//! A session for tests: a stage on its own thread, and clients.
+#![allow(dead_code, reason = "not every test needs all of it")]
+
+use sinew_live::session::{
+    Client, Pacer, Playbill, Role, Server, ServerCounts, ServerSettings, SessionError, Theatre, Token,
+};
+use sinew_stage::{Scene, Stage, Take};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// Two who hold one rope, and a ball on the floor.
+pub const SCENE: &str = r#"
+format = 1
+[characters.red]
+position_m = [0, 0, 0]
+[characters.blue]
+position_m = [0, 0, 1.2]
+facing_deg = 180
+[props.ball]
+ball_radius_m = 0.1
+mass_kg = 1
+position_m = [1, 0.5, 0]
+[[at]]
+time_secs = 0
+character = "red"
+do = "attach"
+link = "rightHand"
+object = "blue.leftHand"
+soft = true
+[[keys]]
+key = "p"
+character = "red"
+do = "push"
+on = "rightHand"
+force_n = [0, 0, -150]
+for_secs = 0.2
+[[keys]]
+key = "b"
+do = "place"
+object = "ball"
+velocity_m_s = [0, 2, 0]
+"#;
+
+/// A session with its stage on a thread of its own.
+pub struct House {
+    pub server: Server,
+    ended: Arc<AtomicBool>,
+    stage: Option<JoinHandle<Done>>,
+}
+
+/// What the stage has done.
+pub struct Done {
+    pub take: Take,
+    pub hashes: BTreeMap<u64, String>,
+    pub obeyed: Vec<sinew_live::session::Obeyed>,
+}
+
+impl House {
+    pub fn open() -> House {
+        let scene = Scene::from_text(SCENE).unwrap();
+        let settings = ServerSettings { bind: "127.0.0.1:0".parse().unwrap(), ..ServerSettings::default() };
+        let (server, desk) = Server::open(&settings, Playbill::of(&scene).unwrap()).unwrap();
+        let ended = Arc::new(AtomicBool::new(false));
+        let until = Arc::clone(&ended);
+        let mut take = Take::of(&scene);
+        let stage = std::thread::spawn(move || {
+            let mut stage = Stage::new(scene, None).unwrap();
+            let mut theatre = Theatre::new(desk, &stage);
+            let mut pacer = Pacer::new(0, stage.world().settings().step_secs());
+            while !until.load(Ordering::Relaxed) {
+                pacer.wait(stage.frame().step);
+                theatre.before_step(&mut stage);
+                stage.step();
+                theatre.after_step(&stage);
+            }
+            take.commands = stage.record().to_vec();
+            (take.steps, take.hash) = (stage.frame().step, stage.hash());
+            Done { take, hashes: theatre.hashes().clone(), obeyed: theatre.obeyed().to_vec() }
+        });
+        House { server, ended, stage: Some(stage) }
+    }
+
+    pub fn token(&self, role: Role) -> Token {
+        self.server.token(role).clone()
+    }
+
+    pub fn counts(&self) -> ServerCounts {
+        self.server.counts()
+    }
+
+    pub fn close(mut self) -> Done {
+        self.ended.store(true, Ordering::Relaxed);
+        self.stage.take().unwrap().join().unwrap()
+    }
+}
+
+impl Drop for House {
+    fn drop(&mut self) {
+        self.ended.store(true, Ordering::Relaxed);
+    }
+}
+
+pub fn join(token: &Token, actors: &[&str]) -> Result<Client, SessionError> {
+    let actors: Vec<String> = actors.iter().map(|&actor| actor.to_owned()).collect();
+    Client::join(token, &actors)
+}
+
+/// Looks until a client has frames up to a step, or so long that it never will.
+pub fn watch_until(client: &Client, step: u64) {
+    for _ in 0..600 {
+        if client.next_frame(Duration::from_millis(100)).is_some_and(|frame| frame.step >= step) {
+            return;
+        }
+    }
+    panic!("no frame of step {step}: {:?}, {:?}", client.tally(), client.standing());
+}
+
+/// Waits for something that must come.
+pub fn until(what: &str, mut is_so: impl FnMut() -> bool) {
+    for _ in 0..3000 {
+        if is_so() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{what} never came");
+}
+
+/// The hashes of one step are the same for all who have it, and there are such steps.
+pub fn agree(one: &BTreeMap<u64, String>, other: &BTreeMap<u64, String>) {
+    let both: Vec<u64> = one.keys().copied().filter(|step| other.contains_key(step)).collect();
+    assert!(!both.is_empty(), "no step in common: {:?} and {:?}", one.keys(), other.keys());
+    for step in both {
+        assert_eq!(one[&step], other[&step], "step {step}");
+    }
+}
