@@ -3,7 +3,8 @@
 
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
-use sinew_body::humanoid::Node;
+use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_control::perform::{PerformerSample, SampleStatus};
 use sinew_live::session::{ClientSays, Hello, PROTOCOL, Refusal, ServerSays, Upward, decode_frame, encode_frame};
 use sinew_world::{BodyState, CharacterFrame, Contact, Entity, Frame};
 
@@ -65,6 +66,24 @@ fn a_frame_that_is_cut_off_or_goes_on_is_none() {
         assert!(decode_frame(&whole[..end]).is_err(), "{end} bytes");
     }
     assert!(decode_frame(&[&whole[..], &[0]].concat()).is_err());
+}
+
+#[test]
+fn a_sample_arrives_with_all_its_bits_and_fits_a_packet() {
+    let turns = std::array::from_fn(|at| DQuat::from_xyzw(0.1 * at as f64, -0.2, 0.3, 0.9));
+    let plain = PerformerSample::new(1.0 / 3.0, DVec3::new(-0.1, 0.9, 1e3), &turns);
+    let lost = PerformerSample { status: SampleStatus::Untracked, number: Some(u64::MAX), ..plain.clone() };
+    let whole = PerformerSample::of_pose(-7.0, &Pose::STANDING, &Body::standard(60.0, 1.6));
+    for sample in [plain, lost, whole] {
+        let upward = Upward::Performed { actor: 3, sample: Box::new(sample) };
+        let bytes = upward.to_bytes();
+        // QUIC promises packets of 1200 bytes, of which it takes some tens itself.
+        assert!(bytes.len() <= 450, "{} bytes", bytes.len());
+        for end in 0..bytes.len() {
+            assert!(Upward::read(&bytes[..end]).is_err());
+        }
+        assert_eq!(Upward::read(&bytes), Ok(upward));
+    }
 }
 
 #[test]

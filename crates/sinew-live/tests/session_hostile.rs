@@ -12,7 +12,6 @@ use session_house::{House, agree, join, until, watch_until};
 use sinew_live::session::{Client, PROTOCOL, Role, Standing, Token};
 use std::net::UdpSocket;
 use std::sync::Arc;
-use std::time::Duration;
 
 /// An honest client that goes on all the while.
 fn goes_on(red: &Client) {

@@ -1,11 +1,13 @@
 //! A client: joins, performs and commands, and sees what happens.
 
-use super::limits::{MOST_NAME, QUIET};
+use super::limits::{MOST_ACTORS_OF_ONE, MOST_NAME, QUIET};
 use super::link::{Link, Seen, Up, is_lost};
 use super::message::{ClientSays, Welcome};
 use super::tally::{Standing, Tally};
+use super::upward::Upward;
 use super::{Refusal, SessionError, Token};
 use sinew_control::Command;
+use sinew_control::perform::PerformerSample;
 use sinew_stage::{Scene, Take};
 use sinew_world::Frame;
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -23,6 +25,9 @@ pub struct Client {
     standing: Arc<Mutex<Standing>>,
     runtime: Option<tokio::runtime::Runtime>,
 }
+
+/// Actors of one client, as a byte counts them.
+const MOST_ACTORS: u8 = MOST_ACTORS_OF_ONE as u8;
 
 /// Orders that wait to be sent.
 const MOST_UP: usize = 256;
@@ -93,6 +98,17 @@ impl Client {
             self.seen.tally().note_sent(key);
         }
         sent
+    }
+
+    /// Sends what one of its actors performs, the first being 0: at once or not at all. A sample of an actor that it does not play
+    /// is not sent.
+    pub fn perform(&self, actor: usize, sample: PerformerSample) {
+        let Ok(actor @ 0..MOST_ACTORS) = u8::try_from(actor) else { return };
+        let upward = Upward::Performed { actor, sample: Box::new(sample) };
+        let is_its = usize::from(actor) < self.welcome.actors.len();
+        if is_its && self.up.try_send(Up::Throw(upward.to_bytes())).is_err() {
+            self.seen.tally().samples_not_sent += 1;
+        }
     }
 
     /// What it has received.

@@ -210,8 +210,8 @@ impl Guest {
             self.is_heard()?;
             let upward = Upward::read(&bytes).map_err(|error| SessionError::Malformed(error.to_string()))?;
             if let Some(command) = upward.command(&self.actors) {
-                // Too many at once: the next one is newer.
-                let _ = self.pass(Order::Command(command));
+                // One that is refused, or too many: the next one is newer.
+                let _ = self.suits(&command).and_then(|()| self.pass(Order::Command(command)));
             }
         }
     }

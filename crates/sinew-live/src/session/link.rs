@@ -25,7 +25,6 @@ pub(super) enum Up {
     /// On the control stream, in order.
     Say(ClientSays),
     /// In a datagram: arrives at once or not at all.
-    #[allow(dead_code, reason = "performance follows")]
     Throw(Vec<u8>),
 }
 

@@ -30,6 +30,7 @@ mod message;
 mod pace;
 mod permit;
 mod relay;
+mod sample_code;
 mod seats;
 mod server;
 mod tally;

@@ -4,7 +4,7 @@ use super::desk::{Desk, Order, Placed};
 use super::limits::MOST_SCENE;
 use super::server::Playbill;
 use super::{SessionError, note_hash};
-use sinew_control::Command;
+use sinew_control::{Action, Command};
 use sinew_stage::take::{Take, TakeFile};
 use sinew_stage::{Scene, Stage};
 use std::collections::BTreeMap;
@@ -106,7 +106,7 @@ impl Theatre {
                     key
                 }
                 Order::Command(command) => {
-                    let is_sample = false;
+                    let is_sample = matches!(command.action, Action::Perform { .. });
                     let what = (!is_sample).then(|| word(&command));
                     stage.command(command);
                     let Some(what) = what else { continue };

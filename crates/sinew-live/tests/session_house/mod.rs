@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Two who hold one rope, and a ball on the floor.
+/// Two who hold on to each other, a performer, and a ball on the floor.
 pub const SCENE: &str = r#"
 format = 1
 [characters.red]
@@ -19,6 +19,10 @@ position_m = [0, 0, 0]
 [characters.blue]
 position_m = [0, 0, 1.2]
 facing_deg = 180
+[characters.green]
+position_m = [3, 0, 0]
+source = { live = {} }
+tracker = "kinematic"
 [props.ball]
 ball_radius_m = 0.1
 mass_kg = 1
@@ -106,6 +110,17 @@ impl Drop for House {
 pub fn join(token: &Token, actors: &[&str]) -> Result<Client, SessionError> {
     let actors: Vec<String> = actors.iter().map(|&actor| actor.to_owned()).collect();
     Client::join(token, &actors)
+}
+
+/// The stage of a take, played again.
+pub fn replayed(take: &Take) -> Stage {
+    let take = Take::read(&take.to_bytes().unwrap()).unwrap();
+    let mut stage = Stage::new(take.to_scene(None).unwrap(), None).unwrap();
+    stage.prescribe(take.commands.clone());
+    for _ in 0..take.steps {
+        stage.step();
+    }
+    stage
 }
 
 /// Looks until a client has frames up to a step, or so long that it never will.
