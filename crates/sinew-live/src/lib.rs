@@ -5,5 +5,18 @@
 //!
 //! [`Command`]: sinew_control::Command
 
+mod impairment;
+mod mirror;
+mod performers;
+mod player;
+mod port;
+pub mod raw;
 #[cfg(feature = "session")]
 pub mod session;
+pub mod vmc;
+
+pub use impairment::{Corruption, Fate, Impairment};
+pub use mirror::Mirror;
+pub use performers::{Latency, Performers};
+pub use player::ClipPlayer;
+pub use port::{Port, PortCounters, PortError};

@@ -11,6 +11,7 @@
 //! | [`control`] | key poses, pose graphs, reflexes, trackers |
 //! | [`script`] | controllers in Python |
 //! | [`stage`] | scenes that run, takes |
+//! | [`live`] | performers and sessions over a network |
 //! | [`picture`] | filmstrips and plots |
 //! | [`respond`] | the whole job of `sinew respond`: a file in, an answered file out |
 //! | [`reaching`] | somebody reaches a target: a source of poses |
@@ -22,6 +23,7 @@
 
 pub use sinew_body as body;
 pub use sinew_control as control;
+pub use sinew_live as live;
 pub use sinew_motion as motion;
 pub use sinew_picture as picture;
 pub use sinew_reach as reaching;

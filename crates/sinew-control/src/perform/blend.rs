@@ -4,11 +4,11 @@
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
 
-/// How fast a blend may move the hips on top of the motion \[m/s\].
-const HIPS_M_S: f64 = 1.0;
+/// How fast a blend may move any part on top of the motion \[m/s\].
+const MOST_M_S: f64 = 0.8;
 
-/// How fast a blend may turn a joint on top of the motion \[rad/s\].
-const TURN_RAD_S: f64 = 2.0;
+/// How far a turn of a joint moves what hangs from it, about \[m/rad\].
+const REACH_M: f64 = 0.5;
 
 /// The steepest slope of the fading, which is 1 - (6 x⁵ - 15 x⁴ + 10 x³).
 const STEEPEST: f64 = 1.875;
@@ -34,8 +34,13 @@ impl Blend {
     pub fn begin(shown: &Pose, wanted: &Pose, least_secs: f64) -> Blend {
         let hips = shown.hips_position - wanted.hips_position;
         let turns = Node::ALL.map(|node| log((wanted.local(node).conjugate() * shown.local(node)).normalize()));
-        let widest = turns.iter().map(|turn| turn.length()).fold(0.0, f64::max);
-        let needed = (hips.length() / HIPS_M_S).max(widest / TURN_RAD_S) * STEEPEST;
+        // The way of each part: that of the hips, and of all turns from there to it.
+        let mut ways = [hips.length(); Node::COUNT];
+        for node in Node::ALL {
+            let above = node.parent().map_or(hips.length(), |parent| ways[parent.index()]);
+            ways[node.index()] = above + REACH_M * turns[node.index()].length();
+        }
+        let needed = ways.into_iter().fold(0.0, f64::max) / MOST_M_S * STEEPEST;
         Blend { hips, turns, gone_secs: 0.0, lasts_secs: needed.max(least_secs) }
     }
 

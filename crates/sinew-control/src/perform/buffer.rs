@@ -60,6 +60,11 @@ impl Buffer {
         }
     }
 
+    /// Time of the first pose that is not before a time \[s\].
+    pub fn next_secs(&self, time_secs: f64) -> Option<f64> {
+        self.entries.get(self.place_of(time_secs)).map(|entry| entry.time_secs)
+    }
+
     /// Where a pose of this time belongs.
     fn place_of(&self, time_secs: f64) -> usize {
         self.entries.partition_point(|entry| entry.time_secs < time_secs)

@@ -62,6 +62,8 @@ pub struct LiveSource {
     playhead: Option<f64>,
     /// Beyond the last sample.
     is_ahead: bool,
+    /// A sample came that was missing right at the playhead.
+    is_mended: bool,
     presence: Presence,
     /// When the last used sample arrived \[s\].
     heard_secs: f64,
@@ -110,6 +112,7 @@ impl LiveSource {
             buffer: Buffer::new(),
             playhead: None,
             is_ahead: false,
+            is_mended: false,
             presence: Presence::Waiting,
             heard_secs: 0.0,
             idle: *first,
@@ -154,9 +157,13 @@ impl LiveSource {
             self.alignment = Some(alignment);
             self.heard_secs = now_secs;
             let entry = Entry { time_secs: sample.time_secs, pose };
-            for gap in self.buffer.insert(entry).into_iter().flatten() {
+            let gaps = self.buffer.insert(entry);
+            for gap in gaps.into_iter().flatten() {
                 self.clock.interval(gap);
             }
+            // Where one was missing between two, what is shown between them is another pose now.
+            let next = self.playhead.and_then(|playhead| self.buffer.next_secs(playhead));
+            self.is_mended |= gaps[1].is_some() && next == Some(sample.time_secs);
         }
     }
 
@@ -183,7 +190,7 @@ impl LiveSource {
         self.before = self.shown;
         self.shown = self.filter.next(&self.shown, &self.blended, step_secs);
         let gain = if self.presence == Presence::Relaxed { self.settings.relaxed_gain } else { 1.0 };
-        let rate = step_secs / self.settings.relax_secs.max(step_secs);
+        let rate = (1.0 - self.settings.relaxed_gain) * step_secs / self.settings.relax_secs.max(step_secs);
         self.gain += (gain - self.gain).clamp(-rate, rate);
         (was != self.presence).then_some(self.presence)
     }
@@ -217,7 +224,7 @@ impl LiveSource {
             self.show_from(due, step_secs, RETURN_SECS);
         } else if off.abs() > JUMP_SECS {
             self.show_from(due, step_secs, BRIDGE_SECS);
-        } else if self.is_ahead && next <= newest {
+        } else if (self.is_ahead || self.is_mended) && next <= newest {
             // What was guessed is known now.
             self.show_from(next, step_secs, BRIDGE_SECS);
         } else if next > newest {
@@ -244,6 +251,7 @@ impl LiveSource {
             self.blend = Blend::begin(&self.blended, &wanted, least_secs);
         }
         self.playhead = Some(time_secs);
+        self.is_mended = false;
         self.is_ahead = self.buffer.newest().is_none_or(|newest| newest.time_secs < time_secs);
     }
 

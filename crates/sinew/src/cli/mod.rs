@@ -4,7 +4,9 @@ mod convert;
 mod inspect;
 #[cfg(feature = "session")]
 mod join;
+mod live;
 mod output;
+mod perform;
 mod push_argument;
 mod reach;
 mod respond;
@@ -41,6 +43,8 @@ enum Command {
     Reach(reach::Reach),
     /// Run a scene: characters in a physical world.
     Run(run::Run),
+    /// Play a motion file as a live performer, over a network as bad as you like.
+    Perform(perform::Perform),
     /// Play a take again, bit for bit, or with other values.
     Replay(run::Replay),
     /// Run a scene for actors on several machines.
@@ -97,6 +101,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Respond(command) => command.run(),
         Command::Reach(command) => command.run(),
         Command::Run(command) => command.run(),
+        Command::Perform(command) => command.run(),
         Command::Replay(command) => command.run(),
         #[cfg(feature = "session")]
         Command::Serve(command) => command.run(),

@@ -1,5 +1,6 @@
 //! `sinew run` and `sinew replay`.
 
+use super::live::LiveArguments;
 use super::output;
 use super::session::Session;
 use anyhow::{Context, Result, bail};
@@ -35,6 +36,8 @@ pub(super) struct Run {
     /// Where to record the take, for `sinew replay`.
     #[arg(long, value_name = "T.take")]
     take: Option<PathBuf>,
+    #[command(flatten)]
+    live: LiveArguments,
     #[command(flatten)]
     out: Out,
 }
@@ -95,11 +98,18 @@ impl Run {
         let threads = 1;
         let job = RunJob { for_secs: self.for_secs, host: script_host(), presses: self.press.clone(), threads };
         let for_picture = scene.clone();
-        let mut session = self.real_time.then(|| Session::begin(&scene));
-        let ran = run(scene, &job, |stage, done, of| match &mut session {
-            Some(session) => session.before_step(stage),
-            None => show(&bar, done, of),
+        let mut live = self.live.open(&scene)?;
+        let keeps_time = self.real_time || live.keeps_time();
+        let mut session = keeps_time.then(|| Session::begin(&scene));
+        let mut ran = run(scene, &job, |stage, done, of| {
+            live.after_step(stage);
+            match &mut session {
+                Some(session) => session.before_step(stage),
+                None => show(&bar, done, of),
+            }
+            live.before_step(stage);
         })?;
+        ran.report.add_ports(live.performers());
         bar.finish_and_clear();
         if let Some(path) = &self.take {
             output::make_folder(path)?;
@@ -250,6 +260,16 @@ impl Out {
             lines.push(format!(
                 "{name}: hips at {:.2} m (lowest {:.2} m), {} steps, {margin}",
                 character.hips_height_end_m, character.hips_height_min_m, character.steps
+            ));
+        }
+        for (name, actor) in &report.actors {
+            let latency = actor.latency_ms.map_or(String::new(), |latency| {
+                format!(", {:.1} ms to a frame ({:.1} ms for 99 %)", latency.p50, latency.p99)
+            });
+            let about = if actor.lost_is_estimate { "about " } else { "" };
+            lines.push(format!(
+                "{name} was performed: {} samples, {} late, {} rejected, {about}{} lost{latency}",
+                actor.received, actor.late, actor.rejected, actor.lost
             ));
         }
         let written = self.written().chain(take);

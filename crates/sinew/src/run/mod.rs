@@ -1,10 +1,12 @@
 //! `sinew run` and `sinew replay` as library calls: a stage runs, and what it showed goes into files and pictures.
 
+mod actors;
 mod draw;
 mod export;
 mod job;
 mod report;
 
+pub use actors::{ActorReport, LatencyReport};
 pub use draw::{figure, sheet};
 pub use export::{body_shapes, character_clip, csv, scene_clip};
 #[cfg(feature = "session")]

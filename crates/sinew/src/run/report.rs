@@ -1,6 +1,8 @@
 //! What happened in a run, in numbers.
 
+use super::actors::{self, ActorReport};
 use serde::Serialize;
+use sinew_live::Performers;
 use sinew_stage::{Event, Stage};
 use sinew_world::{Entity, margin};
 use std::collections::BTreeMap;
@@ -22,6 +24,9 @@ pub struct RunReport {
     pub events_dropped: u64,
     /// Every character by name.
     pub characters: BTreeMap<String, CharacterReport>,
+    /// Every live performer, by the character's name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub actors: BTreeMap<String, ActorReport>,
     /// Largest gap between two parts at their joint \[m\].
     pub joint_gap_max_m: f64,
 }
@@ -65,6 +70,7 @@ impl RunReport {
             events: Vec::new(),
             events_dropped: 0,
             characters: characters.collect(),
+            actors: BTreeMap::new(),
             joint_gap_max_m: 0.0,
         }
     }
@@ -95,6 +101,11 @@ impl RunReport {
         }
     }
 
+    /// Adds what only the ports of live performers know.
+    pub fn add_ports(&mut self, performers: &Performers) {
+        actors::add_ports(&mut self.actors, performers);
+    }
+
     /// Fills in what is known at the end.
     pub fn finish(&mut self, stage: &Stage) {
         let frame = stage.frame();
@@ -103,6 +114,7 @@ impl RunReport {
         self.hash = format!("{:016x}", stage.hash());
         self.events = stage.events().list().to_vec();
         self.events_dropped = stage.events().dropped();
+        self.actors = actors::of(stage);
         for (index, character) in self.characters.values_mut().enumerate() {
             let seen = &frame.characters[index];
             character.hips_height_end_m = seen.parts[0].position.y;

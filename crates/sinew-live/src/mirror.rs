@@ -1,0 +1,42 @@
+//! The simulated result, back to any program that shows VMC.
+
+use crate::vmc::VmcFrame;
+use sinew_control::perform::PerformerSample;
+use sinew_stage::Stage;
+use std::net::{SocketAddr, UdpSocket};
+
+/// Sends one character's pose.
+#[derive(Debug)]
+pub struct Mirror {
+    socket: UdpSocket,
+    to: SocketAddr,
+    character: usize,
+    number: u64,
+}
+
+impl Mirror {
+    /// Of a character (its place in the cast), to an address.
+    ///
+    /// # Errors
+    /// When no socket can be opened.
+    pub fn open(character: usize, to: SocketAddr) -> std::io::Result<Mirror> {
+        let any = if to.is_ipv4() { "0.0.0.0:0" } else { "[::]:0" };
+        let socket = UdpSocket::bind(any)?;
+        // A viewer that does not keep up must not hold the stage.
+        socket.set_nonblocking(true)?;
+        Ok(Mirror { socket, to, character, number: 0 })
+    }
+
+    /// Sends what the stage shows now. What cannot be sent is left out: the next one is newer.
+    pub fn send(&mut self, stage: &Stage) {
+        let (Some(seen), Some(body)) =
+            (stage.frame().characters.get(self.character), stage.world().body(self.character))
+        else {
+            return;
+        };
+        let sample = PerformerSample::of_pose(stage.frame().time_secs, &seen.pose(), body);
+        let sample = PerformerSample { number: Some(self.number), ..sample };
+        self.number += 1;
+        let _ = self.socket.send_to(&VmcFrame::of(&sample, body).to_bytes(), self.to);
+    }
+}

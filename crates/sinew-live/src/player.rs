@@ -1,0 +1,93 @@
+//! A clip as an actor: what a performer of the clip would send, and when it arrives.
+
+use crate::impairment::Impairment;
+use crate::vmc::VmcFrame;
+use sinew_body::humanoid::{Body, Person, Pose, Reduction};
+use sinew_control::perform::PerformerSample;
+use sinew_motion::formats::MotionFile;
+use sinew_motion::{moves_from, resample};
+
+/// A motion file, ready to be performed.
+#[derive(Clone, Debug)]
+pub struct ClipPlayer {
+    body: Body,
+    poses: Vec<Pose>,
+    interval_secs: f64,
+}
+
+/// Most frames that are kept: an hour at 60 Hz.
+const MOST_FRAMES: usize = 216_000;
+
+impl ClipPlayer {
+    /// Reads the performer out of a motion file, at a rate \[Hz\]. A pose at the beginning in which nobody moves yet is left out.
+    ///
+    /// # Errors
+    /// A file that holds no human body: why.
+    pub fn new(file: &MotionFile, hz: f64) -> Result<ClipPlayer, String> {
+        if !(1.0..=1000.0).contains(&hz) {
+            return Err(format!("{hz} frames a second are out of range; give 1 to 1000"));
+        }
+        let humanoid = file.body_parts().map_err(|error| error.to_string())?;
+        let reduction = Reduction::new(&file.clip, humanoid, file.stature_m, Person::default());
+        let reduction = reduction.map_err(|error| error.to_string())?;
+        let skipped_secs = moves_from(&file.clip, humanoid) as f64 * file.clip.frame_time_secs();
+        let clip = resample(&file.clip, hz);
+        let first = ((skipped_secs * hz).ceil() as usize).min(clip.frames().saturating_sub(1));
+        let frames = (first..clip.frames()).take(MOST_FRAMES);
+        let poses: Vec<Pose> = frames.map(|frame| reduction.pose(&clip.world(frame))).collect();
+        ClipPlayer::of_poses(reduction.body().clone(), poses, hz)
+    }
+
+    /// A performer of this body with these poses.
+    ///
+    /// # Errors
+    /// When there are none.
+    pub fn of_poses(body: Body, poses: Vec<Pose>, hz: f64) -> Result<ClipPlayer, String> {
+        if poses.is_empty() {
+            return Err("the clip has no frames".to_owned());
+        }
+        Ok(ClipPlayer { body, poses, interval_secs: 1.0 / hz })
+    }
+
+    /// The performer's body.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Frames of the clip.
+    pub fn frames(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// Time from frame to frame \[s\].
+    pub fn interval_secs(&self) -> f64 {
+        self.interval_secs
+    }
+
+    /// The pose of a frame. After the last one the clip is played backwards, and so on: nobody jumps.
+    pub fn pose(&self, number: u64) -> &Pose {
+        let last = (self.poses.len() - 1) as u64;
+        let at = if last == 0 { 0 } else { number % (2 * last) };
+        &self.poses[at.min(2 * last - at.min(2 * last)) as usize]
+    }
+
+    /// What the performer sends as its frame of this number.
+    pub fn sample(&self, number: u64) -> PerformerSample {
+        let time_secs = number as f64 * self.interval_secs;
+        let sample = PerformerSample::of_pose(time_secs, self.pose(number), &self.body);
+        PerformerSample { number: Some(number), ..sample }
+    }
+
+    /// The datagrams of a frame, each with the time at which it arrives after the performance began \[s\].
+    pub fn datagrams(&self, number: u64, impairment: &Impairment) -> impl Iterator<Item = (f64, Vec<u8>)> + use<> {
+        let sample = self.sample(number);
+        let frame = VmcFrame::of(&sample, &self.body);
+        let fate = impairment.fate(number, self.interval_secs);
+        let bytes = match fate.corruption {
+            Some(corruption) => corruption.spoil(&frame),
+            None => frame.to_bytes(),
+        };
+        let sent_secs = sample.time_secs;
+        fate.arrivals_secs.into_iter().flatten().map(move |after| (sent_secs + after, bytes.clone()))
+    }
+}

@@ -1,0 +1,130 @@
+//! `sinew perform`.
+
+use super::live::resolve;
+use super::{Reading, output};
+use anyhow::{Context, Result, bail};
+use sinew::live::{ClipPlayer, Impairment};
+use sinew::motion::formats::MotionFile;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::net::UdpSocket;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Arguments of `sinew perform`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Perform {
+    /// The motion file to play, forwards and backwards in turn; a walk that Sinew makes itself when left out.
+    clip: Option<PathBuf>,
+    /// Where to, such as udp://127.0.0.1:39539.
+    #[arg(long, value_name = "udp://HOST:PORT")]
+    to: String,
+    /// Frames a second.
+    #[arg(long, value_name = "N", default_value_t = 60.0)]
+    fps: f64,
+    /// For how long [s]; until stopped when left out.
+    #[arg(long = "for", value_name = "SECONDS")]
+    for_secs: Option<f64>,
+    /// Every datagram arrives so much later [ms].
+    #[arg(long, value_name = "MS", default_value_t = 0.0, value_parser = millis)]
+    delay: f64,
+    /// And up to so much later on top [ms].
+    #[arg(long, value_name = "MS", default_value_t = 0.0, value_parser = millis)]
+    jitter: f64,
+    /// Share that never arrives, 0 to 1.
+    #[arg(long, value_name = "P", default_value_t = 0.0, value_parser = share)]
+    loss: f64,
+    /// Share that arrives twice, 0 to 1.
+    #[arg(long, value_name = "P", default_value_t = 0.0, value_parser = share)]
+    duplicate: f64,
+    /// Share that is held back by one to three frames, 0 to 1.
+    #[arg(long, value_name = "P", default_value_t = 0.0, value_parser = share)]
+    reorder: f64,
+    /// Share that is spoilt: numbers that are none, turns that are no rotations, jumps, old time stamps, cut off; 0 to 1.
+    #[arg(long, value_name = "P", default_value_t = 0.0, value_parser = share)]
+    corrupt: f64,
+    /// Where the randomness comes from.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "a number from 0 to 1 is expected")?;
+    if (0.0..=1.0).contains(&value) { Ok(value) } else { Err("a number from 0 to 1 is expected".to_owned()) }
+}
+
+fn millis(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "milliseconds are expected")?;
+    if (0.0..=60_000.0).contains(&value) { Ok(value) } else { Err("give 0 to 60000 milliseconds".to_owned()) }
+}
+
+impl Perform {
+    pub(super) fn run(&self) -> Result<()> {
+        let address = self
+            .to
+            .strip_prefix("udp://")
+            .with_context(|| format!("--to {}: write udp://HOST:PORT, such as udp://127.0.0.1:39539", self.to))?;
+        let to = resolve(address)?;
+        let file = match &self.clip {
+            Some(path) => MotionFile::read(path, &self.reading.options())?,
+            None => MotionFile::from_bvh(sinew::sample::WALK_BVH, &self.reading.options())?,
+        };
+        let player = ClipPlayer::new(&file, self.fps).map_err(anyhow::Error::msg)?;
+        let impairment = Impairment {
+            delay_secs: self.delay / 1e3,
+            jitter_secs: self.jitter / 1e3,
+            loss: self.loss,
+            duplicate: self.duplicate,
+            reorder: self.reorder,
+            corrupt: self.corrupt,
+            seed: self.seed,
+        };
+        if self.for_secs.is_some_and(|secs| !(0.0..=1e9).contains(&secs)) {
+            bail!("--for is out of range; give seconds");
+        }
+        let socket = UdpSocket::bind(if to.is_ipv4() { "0.0.0.0:0" } else { "[::]:0" })?;
+        let (frames, datagrams) = play(&player, &impairment, self.for_secs, |bytes| {
+            // Nobody listens yet, or the way is full: the next one is newer.
+            let _ = socket.send_to(bytes, to);
+        });
+        output::say(&format!("performed {frames} frames in {datagrams} datagrams to {to}"))
+    }
+}
+
+/// Sends every datagram when it is due; returns how many frames and datagrams there were.
+fn play(
+    player: &ClipPlayer,
+    impairment: &Impairment,
+    for_secs: Option<f64>,
+    mut send: impl FnMut(&[u8]),
+) -> (u64, u64) {
+    let began = Instant::now();
+    let last = for_secs.map_or(u64::MAX, |secs| (secs / player.interval_secs()).ceil() as u64);
+    let mut under_way = BinaryHeap::new();
+    let (mut frames, mut datagrams) = (0u64, 0u64);
+    loop {
+        let sent_secs = frames as f64 * player.interval_secs();
+        let due = under_way.peek().map(|Reverse((arrival, _))| *arrival);
+        let next = Duration::from_secs_f64(sent_secs);
+        match due {
+            Some(arrival) if frames >= last || arrival <= next => {
+                std::thread::sleep(Duration::saturating_sub(arrival, began.elapsed()));
+                if let Some(Reverse((_, bytes))) = under_way.pop() {
+                    let bytes: Vec<u8> = bytes;
+                    send(&bytes);
+                    datagrams += 1;
+                }
+            }
+            None if frames >= last => return (frames, datagrams),
+            _ => {
+                std::thread::sleep(next.saturating_sub(began.elapsed()));
+                for (arrival_secs, bytes) in player.datagrams(frames, impairment) {
+                    under_way.push(Reverse((Duration::from_secs_f64(arrival_secs), bytes)));
+                }
+                frames += 1;
+            }
+        }
+    }
+}

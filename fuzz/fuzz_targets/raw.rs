@@ -1,0 +1,7 @@
+#![no_main]
+
+#[path = "../src/live.rs"]
+#[allow(dead_code)]
+mod live;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| live::raw(data));
