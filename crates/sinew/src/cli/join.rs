@@ -4,8 +4,10 @@ use super::output;
 use super::run::{Out, press};
 use anyhow::{Context, Result, bail};
 use sinew::control::Command;
+use sinew::live::Port;
 use sinew::session::{Client, JoinReport, Role, Standing, Token, View};
 use std::io::BufRead;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::{Duration, Instant};
@@ -18,6 +20,12 @@ pub(super) struct Join {
     /// The actor to play; may be repeated. Without it you watch, or operate with the operator's token.
     #[arg(long = "as", value_name = "ACTOR")]
     actors: Vec<String>,
+    /// Send what a performer does: listen for VMC on this UDP port; samples go to the first actor.
+    #[arg(long, value_name = "PORT", requires = "actors")]
+    vmc: Option<u16>,
+    /// The address of this machine on which the performer is listened for; 0.0.0.0 lets other machines' senders in.
+    #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    listen: IpAddr,
     /// A file with the token, such as `sinew serve --token-file` wrote: with --as the first line is taken, else the last.
     #[arg(long, value_name = "F")]
     token_file: Option<PathBuf>,
@@ -38,6 +46,9 @@ pub(super) struct Join {
     out: Out,
 }
 
+/// Time that is waited for a frame.
+const LOOK: Duration = Duration::from_millis(5);
+
 /// Lines that wait to be sent.
 const MOST_LINES: usize = 100;
 
@@ -45,6 +56,8 @@ impl Join {
     pub(super) fn run(&self) -> Result<()> {
         self.out.check(self.token_file.iter(), std::iter::empty())?;
         let token = self.token()?;
+        // Opened first: nobody is to find out in the session that the port is taken.
+        let performer = self.vmc.map(|port| Port::vmc(SocketAddr::new(self.listen, port))).transpose()?;
         let client = Client::join(&token, &self.actors)?;
         let whom = match (self.actors.is_empty(), token.role) {
             (false, _) => self.actors.join(", "),
@@ -53,7 +66,7 @@ impl Join {
         };
         output::say(&format!("joined {} as {whom} at step {}", client.scene().file_name(), client.welcome().step))?;
         let mut view = if self.out.needs_motion() { Some(View::of(&client)?) } else { None };
-        self.stay(&client, view.as_mut())?;
+        self.stay(&client, performer.as_ref(), view.as_mut())?;
         let report = JoinReport::of(&client);
         let mut scene = client.scene().clone();
         drop(client);
@@ -92,7 +105,7 @@ impl Join {
     }
 
     /// Until the time is over or the session ends.
-    fn stay(&self, client: &Client, mut view: Option<&mut View>) -> Result<()> {
+    fn stay(&self, client: &Client, performer: Option<&Port>, mut view: Option<&mut View>) -> Result<()> {
         let lines = self.keys.then(lines);
         let mut presses = self.press.clone();
         presses.sort_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -110,7 +123,12 @@ impl Join {
             for line in lines.iter().flat_map(Receiver::try_iter) {
                 send(client, line.trim());
             }
-            if let Some(frame) = client.next_frame(Duration::from_millis(5))
+            while let Some((_, sample)) = performer.and_then(Port::next) {
+                client.perform(0, sample);
+            }
+            // With a performer it does not wait long: its samples are on their way.
+            let within = if performer.is_some() { LOOK / 5 } else { LOOK };
+            if let Some(frame) = client.next_frame(within)
                 && let Some(view) = &mut view
             {
                 view.push(&frame);
