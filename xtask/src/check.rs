@@ -4,7 +4,7 @@ use crate::command::{self, cargo, output};
 use crate::{golden, readme, repository};
 
 /// Crates that others use alone, and the crates that these must not bring along.
-const ALONE: [(&str, &[&str]); 8] = [
+const ALONE: [(&str, &[&str]); 9] = [
     ("sinew-motion", &["ufbx", "serde_json", "base64"]),
     ("sinew-body", &["ufbx", "serde_json", "base64"]),
     ("sinew-response", &["ufbx", "serde_json", "base64", "clap", "tiny-skia"]),
@@ -12,6 +12,7 @@ const ALONE: [(&str, &[&str]); 8] = [
     ("sinew-control", &["ufbx", "clap", "tiny-skia", "rustpython-vm"]),
     ("sinew-script", &["rustpython-vm", "malachite-bigint", "sinew-stage", "clap"]),
     ("sinew-stage", &["rustpython-vm", "clap", "tiny-skia"]),
+    ("sinew-live", &["quinn", "tokio", "rustls", "rustpython-vm", "clap", "tiny-skia"]),
     ("sinew-picture", &["sinew-motion", "sinew-body"]),
 ];
 

@@ -2,6 +2,7 @@
 
 use super::output;
 use super::run::{Out, assignment, script_host};
+use super::session::Session;
 use anyhow::{Context, Result};
 use sinew::session::{Playbill, Role, ServeJob, Server, ServerSettings, limits, serve};
 use sinew::stage::Scene;
@@ -66,7 +67,8 @@ impl Serve {
             keeps_motion: self.out.needs_motion(),
         };
         let for_picture = scene.clone();
-        let served = serve(scene, &job, &server, desk, |_| ())?;
+        let mut keyboard = Session::begin(&scene);
+        let served = serve(scene, &job, &server, desk, |stage| keyboard.before_step(stage))?;
         drop(server);
         if let (Some(path), Some(take)) = (&self.take, &served.take) {
             output::make_folder(path)?;
