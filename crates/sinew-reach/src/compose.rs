@@ -1,7 +1,7 @@
 //! From the controls of one instant to a pose: trunk, arms and legs by closed form, the hips where the balance puts them.
 
 use crate::feet::Support;
-use crate::head::look;
+use crate::head::{look, soft};
 use crate::spine::{root_shift, swing_shares, twist_shares, wrapped};
 use crate::{Style, Values};
 use glam::{DQuat, DVec3};
@@ -81,6 +81,8 @@ pub(crate) struct Frame {
     pub ankle_m: f64,
     /// The body with limits a little narrower, for plans.
     pub tight: Body,
+    /// Limits within which joints are at ease.
+    pub easy: Body,
 }
 
 /// A pose and what was found on the way.
@@ -103,6 +105,9 @@ const SOFT_M: f64 = 0.003;
 
 /// How far carried arms keep hanging as the trunk bends \[1\].
 const HANGS: f64 = 0.75;
+
+/// How far they come forward at most, and less than half so far aside: the shoulder's range \[rad\].
+const MOST_HANG_RAD: f64 = 1.1;
 
 /// Rounds in which the hips find their place under the centre of mass; each leaves about a tenth of the error.
 const ROUNDS: usize = 5;
@@ -135,7 +140,8 @@ impl Frame {
             effector: ARMS.map(|arm| body.link(arm[3]).centre),
             folded_m: folded.max(0.0).sqrt(),
             ankle_m: Sole::of(body, Node::LeftFoot).ankle_m,
-            tight: tightened(body),
+            tight: tightened(body, 1.0, SPARE_RAD),
+            easy: tightened(body, EASY, 0.0),
             body: body.clone(),
         }
     }
@@ -218,8 +224,9 @@ impl Frame {
         for arm in &mut arms {
             // Carried arms hang down as the trunk bends, most of the way.
             let girdle = chest * arm.carried[0] * exp(arm.girdle);
-            let hang = girdle.conjugate() * exp(now.swing * -HANGS) * girdle;
-            arm.carried[1] = (hang * arm.carried[1]).normalize();
+            let hang = girdle.conjugate() * now.swing * -HANGS;
+            let hang = DVec3::new(soft(hang.x, MOST_HANG_RAD), 0.0, soft(hang.z, 0.4 * MOST_HANG_RAD));
+            arm.carried[1] = (exp(hang) * arm.carried[1]).normalize();
         }
         let carried = [0, 1].map(|side| self.carried(side, &arms[side]).unwrap_or_default());
         let mut goal = None;
@@ -320,7 +327,7 @@ impl Frame {
         if arm.share > 0.0 {
             let s = arm.share;
             let bowed = 4.0 * s * (1.0 - s);
-            let wanted = carried + (arm.target - carried) * s + arm.bow * (bowed * bowed);
+            let wanted = carried + (arm.target - carried) * s + arm.bow * bowed;
             let line = wanted - joint;
             let distance = line.length().max(1e-9);
             let wanted = joint + line * (self.within_reach(distance) / distance);
@@ -377,7 +384,10 @@ fn along(bone: DVec3, hinge: DVec3) -> DQuat {
 /// Limits that a plan keeps are narrower than the body's by this \[rad\], so that what happens on the way has room.
 const SPARE_RAD: f64 = 0.03;
 
-fn tightened(body: &Body) -> Body {
+/// Share of its range in which a joint is at ease \[1\].
+const EASY: f64 = 0.8;
+
+fn tightened(body: &Body, share: f64, spare_rad: f64) -> Body {
     let mut tight = body.clone();
     for node in Node::ALL {
         let limit = &mut tight.link_mut(node).limit;
@@ -387,9 +397,9 @@ fn tightened(body: &Body) -> Body {
             &mut limit.swing.z_negative,
             &mut limit.swing.z_positive,
         ] {
-            *axis = (*axis - SPARE_RAD).max(0.5 * *axis);
+            *axis = (share * *axis - spare_rad).max(0.5 * *axis);
         }
-        limit.twist = (limit.twist.0 + SPARE_RAD, limit.twist.1 - SPARE_RAD);
+        limit.twist = (share * limit.twist.0 + spare_rad, share * limit.twist.1 - spare_rad);
     }
     tight
 }

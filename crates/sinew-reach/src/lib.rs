@@ -24,9 +24,11 @@ mod glide;
 mod hand_path;
 mod head;
 mod legs;
+mod obstacle;
 mod outcome;
 mod plan;
 mod reacher;
+mod route;
 mod solve;
 mod spine;
 mod values;
@@ -40,8 +42,10 @@ pub use head::look;
 pub use legs::{
     StepChoice, StepKind, decide_step, ground_direction, half_probability, step_bias, step_length, step_probability,
 };
+pub use obstacle::Obstacle;
 pub use outcome::{Outcome, Reason};
 pub use reacher::{Goal, Reacher, Start, standing};
+pub use route::MOST_OBSTACLES;
 pub use spine::{
     reaching_angle, root_shift, search_twist, squat_for, stoop_range_m, swing_axis, swing_shares, twist_shares,
 };

@@ -29,6 +29,8 @@ pub(crate) struct Decision {
     /// How far each hand has to go against the body \[m\].
     pub ways_m: [f64; 2],
     pub turns_head_rad: f64,
+    /// Where the hands end \[m\]: at their targets, or as near as they come.
+    pub ends: [DVec3; 2],
     gap_m: f64,
     reason: Option<Reason>,
     swing_rad: f64,
@@ -83,6 +85,7 @@ impl Reacher {
             bow: [DVec3::ZERO; 2],
             ways_m: [0.0; 2],
             turns_head_rad: 0.0,
+            ends: targets.map(Option::unwrap_or_default),
             gap_m: 0.0,
             reason: None,
             swing_rad: 0.0,
@@ -184,14 +187,18 @@ impl Reacher {
         decision.ways_m = [0, 1].map(|side| targets[side].map_or(0.0, |target| (target - carried[side]).length()));
         if !print {
             for side in 0..2 {
-                let Some(target) = targets[side] else { continue };
-                decision.bow[side] = self.bow_around(end.shoulders[side], carried[side], target, stance_yaw(&stance));
+                if targets[side].is_none() {
+                    continue;
+                }
+                decision.bow[side] =
+                    self.bow_around(end.shoulders[side], carried[side], end.hands[side], end.pose.world[1] * DVec3::Z);
             }
         }
         decision.gap_m = judged.gap_m;
         decision.swing_rad = signed_swing(&aim, d);
         decision.turns_head_rad = head_turn(&end);
         if judged.gap_m > REACHED_M {
+            decision.ends = end.hands;
             decision.reason = Some(self.why(&reaching, &end, print && choice.is_some()));
         }
         decision.walk = walk;
@@ -201,16 +208,15 @@ impl Reacher {
 
     /// How the way of a hand is bowed so that it does not come too near to its own shoulder: the arm would have to fold. The
     /// paper's way is straight.
-    fn bow_around(&self, shoulder: DVec3, from: DVec3, to: DVec3, yaw_rad: f64) -> DVec3 {
+    fn bow_around(&self, shoulder: DVec3, from: DVec3, to: DVec3, forward: DVec3) -> DVec3 {
         let way = to - from;
         let share = ((shoulder - from).dot(way) / way.length_squared().max(1e-9)).clamp(0.2, 0.8);
         let near = from + way * share - shoulder;
-        let forward = DVec3::new(libm::sin(yaw_rad), 0.0, libm::cos(yaw_rad));
         let wanted = ROUND * self.frame.values.arm_m;
-        let out = (near.normalize_or_zero() + forward * 0.8).normalize_or_zero();
+        let out = (near.normalize_or_zero() * 0.6 + forward).normalize_or_zero();
         let lacks = (wanted - near.length()).max(0.0);
         let hump = 4.0 * share * (1.0 - share);
-        out * (lacks / (hump * hump).max(0.3)).min(wanted)
+        out * (lacks / hump.max(0.5)).min(wanted)
     }
 
     fn why(&self, reaching: &[(usize, DVec3)], end: &crate::compose::Composed, one_step: bool) -> Reason {
@@ -240,10 +246,6 @@ impl Reacher {
 
 /// How far a hand keeps from its shoulder on its way \[1 of the arm's length\].
 const ROUND: f64 = 0.72;
-
-fn stance_yaw(feet: &[Placement; 2]) -> f64 {
-    feet[0].yaw_rad + 0.5 * wrapped(feet[1].yaw_rad - feet[0].yaw_rad)
-}
 
 /// The stance after a walk.
 fn placed(walk: &Walk, feet: &[Placement; 2]) -> [Placement; 2] {

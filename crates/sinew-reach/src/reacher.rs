@@ -84,6 +84,7 @@ pub struct Reacher {
     pub(crate) goal: [Option<DVec3>; 2],
     pub(crate) planned: [Option<DVec3>; 2],
     pub(crate) replanned_secs: f64,
+    pub(crate) obstacles: Vec<crate::Obstacle>,
     /// Where the targets were followed to last, and when [s].
     pub(crate) followed: Option<([Option<DVec3>; 2], f64)>,
     pub(crate) velocity: [DVec3; 2],
@@ -154,6 +155,7 @@ impl Reacher {
             goal: [None; 2],
             planned: [None; 2],
             replanned_secs: f64::NEG_INFINITY,
+            obstacles: Vec::new(),
             followed: None,
             velocity: [DVec3::ZERO; 2],
             frame,
@@ -316,22 +318,6 @@ impl Reacher {
         self.steps.retain(|step| step.start_secs <= now);
         let targets = [goal.left, goal.right].map(|target| target.filter(|target| target.is_finite()));
         let composed = self.composed_at(now);
-        for side in 0..2 {
-            let arm = &mut self.arms[side];
-            match targets[side] {
-                Some(target) => {
-                    if arm.share.at(now) <= 0.0 {
-                        arm.offset = Glide::rest(DVec3::ZERO);
-                    } else {
-                        arm.offset.shift(arm.target - target);
-                    }
-                    arm.target = target;
-                }
-                None => {
-                    // The hand goes back to where it is carried; its target stays put on the way.
-                }
-            }
-        }
         self.goal = targets;
         self.planned = targets;
         self.followed = None;
@@ -339,7 +325,25 @@ impl Reacher {
         let mut dice = self.dice;
         let decision = self.decide(targets, &mut dice, false);
         self.dice = dice;
+        for side in (0..2).filter(|side| targets[*side].is_some()) {
+            // Out of reach, the hand goes straight to the nearest point.
+            let (arm, end) = (&mut self.arms[side], decision.ends[side]);
+            if arm.share.at(now) <= 0.0 {
+                arm.offset = Glide::rest(DVec3::ZERO);
+            } else {
+                arm.offset.shift(arm.target - end);
+            }
+            arm.target = end;
+        }
         self.schedule(&decision, &composed, now);
+        if !self.style.print {
+            self.mend_way(now);
+        }
+        if self.outcome.reason.is_some() {
+            let hands = self.hands_at(self.outcome.arrives_secs);
+            let gaps = (0..2).filter_map(|side| Some((hands[side] - targets[side]?).length()));
+            self.outcome.gap_m = gaps.fold(0.0, f64::max);
+        }
         &self.outcome
     }
 

@@ -1,6 +1,6 @@
 //! The posture in which hands reach their targets from a stance: the paper's rules first, then a search where they do not do.
 
-use crate::compose::{Composed, Frame, Now};
+use crate::compose::{ARMS, Composed, Frame, Now};
 use crate::feet::{Placement, Support};
 use crate::spine::{search_twist, squat_for, swing_axis};
 use crate::{Style, Values};
@@ -31,6 +31,8 @@ pub(crate) struct Judged {
     pub gap_m: f64,
     /// How far joints are beyond the narrowed limits, summed \[rad\].
     pub excess_rad: f64,
+    /// How far upper arms are beyond the range in which they are at ease \[rad\].
+    unease_rad: f64,
     cost: f64,
 }
 
@@ -90,9 +92,16 @@ impl Task<'_> {
         }
         let excess_rad: f64 =
             Node::ALL.into_iter().map(|node| self.frame.tight.link(node).limit.excess(composed.pose.local(node))).sum();
+        let unease_rad: f64 = (0..2)
+            .filter(|side| self.targets[*side].is_some())
+            .map(|side| {
+                let node = ARMS[side][1];
+                self.frame.easy.link(node).limit.excess(composed.pose.local(node))
+            })
+            .sum();
         let scale = self.values().arm_m;
         let elbows: f64 = aim.arms.iter().map(|arm| (arm.swivel - USUAL_SWIVEL) * (arm.swivel - USUAL_SWIVEL)).sum();
-        let effort = 0.05 * aim.twist * aim.twist
+        let effort = 0.12 * aim.twist * aim.twist
             + 0.04 * aim.swing.length_squared()
             + 0.3 / (self.style.flexibility * self.style.flexibility) * (aim.squat / scale) * (aim.squat / scale)
             + 0.5 * aim.lean.length_squared() / (scale * scale)
@@ -100,8 +109,8 @@ impl Task<'_> {
         let beyond = (aim.swing.length() - self.values().most_swing_rad).max(0.0)
             + (aim.squat - self.values().most_squat_m).max(0.0)
             + (-aim.squat).max(0.0);
-        let cost = 40.0 * gaps / scale + 6.0 * excess_rad + 8.0 * strain + effort + 100.0 * beyond;
-        Judged { composed, gap_m, excess_rad, cost }
+        let cost = 40.0 * gaps / scale + 6.0 * excess_rad + 8.0 * strain + 0.3 * unease_rad + effort + 100.0 * beyond;
+        Judged { composed, gap_m, excess_rad, unease_rad, cost }
     }
 
     /// The paper's rules: twist by search, squat by the stoop range, swing until the hand reaches.
@@ -189,7 +198,7 @@ impl Task<'_> {
     pub fn solve(&self) -> (Aim, Judged) {
         let mut aim = self.by_rule();
         let mut judged = self.judge(&aim);
-        if judged.excess_rad > 0.0 {
+        if judged.excess_rad > 0.0 || judged.unease_rad > 0.0 {
             self.swivel_arms(&mut aim, &mut judged);
         }
         let strained = judged
