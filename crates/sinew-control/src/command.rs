@@ -4,6 +4,7 @@
 //! Names are those of the scene file: characters, objects, poses, graphs. Body parts are VRM 1.0 names. Vectors are
 //! `[x, y, z]` in metres, newtons or m/s, in the world's axes (Y up) unless said otherwise.
 
+use crate::ReachOrder;
 use crate::perform::PerformerSample;
 use crate::tracker::{KdDamping, KdPreset};
 use serde::{Deserialize, Serialize};
@@ -319,6 +320,10 @@ pub enum Action {
         /// On or off.
         on: bool,
     },
+    /// Reach for something with arms, spine, head and legs, from whatever pose the character is in.
+    Reach(ReachOrder),
+    /// Let go of a reach: stand up, then back to the clip or pose of before.
+    ReachEnd {},
     /// A line for the report's list of events.
     Say {
         /// The words.

@@ -101,6 +101,19 @@ pub fn standing(body: &Body, place: DVec3, facing_rad: f64) -> Pose {
     pose
 }
 
+/// How far ahead of where it is a foot lands that is on its way when the reach begins \[m\].
+fn lands_ahead(start: &Start, body: &Body, foot: Node) -> DVec3 {
+    let Some((before, ago)) = &start.before else { return DVec3::ZERO };
+    let at = |pose: &Pose| pose.positions(body)[foot.index()];
+    let velocity = (at(&start.pose) - at(before)) / ago.max(1e-3);
+    let flat = DVec3::new(velocity.x, 0.0, velocity.z);
+    let moves = crate::head::smooth(flat.length(), 0.2, 0.8);
+    (flat * (LANDS_SECS * moves)).clamp_length_max(0.45 * body.stature_m() / 1.7)
+}
+
+/// A foot in the air goes on for so long at its speed, in all, until it stands \[s\].
+const LANDS_SECS: f64 = 0.2;
+
 /// How long what is left of the start's pose takes to pass \[s\]: of a body at rest, and of one that moves.
 const SETTLES_SECS: (f64, f64) = (0.5, 0.7);
 
@@ -120,7 +133,7 @@ impl Reacher {
             let (_, _, foot) = LEGS[side];
             let toes = pose.world[foot.index()] * DVec3::Z;
             yaw[side] = libm::atan2(toes.x, toes.z);
-            let ankle = at[foot.index()];
+            let ankle = at[foot.index()] + lands_ahead(start, body, foot);
             Placement { ankle: DVec3::new(ankle.x, floor + frame.ankle_m, ankle.z), yaw_rad: yaw[side] }
         });
         let mut placed = placed;
@@ -288,6 +301,17 @@ impl Reacher {
     /// How it reaches.
     pub fn style(&self) -> &Style {
         &self.style
+    }
+
+    /// How it is to reach from the next goal on. The random choices go on as they were.
+    ///
+    /// # Errors
+    /// When a dial is out of its range; all stays as it was.
+    pub fn set_style(&mut self, style: &Style) -> Result<(), crate::StyleError> {
+        style.check()?;
+        self.frame.values = Values::of(&self.frame.body, style);
+        self.style = *style;
+        Ok(())
     }
 
     /// What was decided, and how it is to end.

@@ -2,6 +2,7 @@
 
 use crate::motion_source::MotionSource;
 use crate::performance::Performance;
+use crate::reaching::{self, Reaching};
 use crate::scene::TrackerKind;
 use crate::scripts::Running;
 use glam::{DQuat, DVec3};
@@ -39,6 +40,7 @@ pub struct Actor {
     /// Height of the floor that its soles keep to when no source moves its hips, for a tracker that holds the hips \[m\].
     pub(crate) sole_m: Option<f64>,
     pub(crate) motion: Option<MotionSource>,
+    pub(crate) reaching: Option<Reaching>,
     pub(crate) performance: Option<Performance>,
     /// Whether a source moved its hips in the last step.
     pub(crate) moved_root: bool,
@@ -80,6 +82,7 @@ impl Actor {
             stand: (DVec3::ZERO, DQuat::IDENTITY),
             sole_m: None,
             motion: None,
+            reaching: None,
             performance: None,
             moved_root: false,
             script: None,
@@ -118,7 +121,8 @@ impl Actor {
     pub(crate) fn aim(&mut self, name: &str) -> Result<bool, String> {
         let pose = self.poses.get(name).ok_or_else(|| unknown("pose", name, self.poses.keys()))?;
         let reaches = Limb::ALL.into_iter().any(|limb| self.player.ik.of(limb).is_some());
-        let is_alone = self.graph.is_none() && self.motion.is_none() && self.followed().is_none();
+        let is_alone =
+            self.graph.is_none() && self.motion.is_none() && self.followed().is_none() && self.reaching.is_none();
         if self.pose == name && is_alone && !reaches {
             return Ok(false);
         }
@@ -151,6 +155,9 @@ impl Actor {
     /// Neither a clip nor a performer is followed any more.
     fn leave_motion(&mut self) {
         self.motion = None;
+        if let Some(reaching) = &mut self.reaching {
+            reaching.leave();
+        }
         if let Some(performance) = &mut self.performance {
             performance.follow(false);
         }
@@ -268,11 +275,19 @@ impl Actor {
 
     /// Whether its source says where the hips are to be.
     pub(crate) fn moves_root(&self) -> bool {
-        self.motion.is_some() || self.followed().is_some()
+        self.motion.is_some() || self.followed().is_some() || self.reaching.is_some()
     }
 
     /// The whole pose that is wanted at a time \[s\]: of the clip, or of the target with the hips where they stand.
     pub(crate) fn wanted_pose(&self, time_secs: f64) -> Pose {
+        match &self.reaching {
+            Some(reaching) => reaching.pose_at(time_secs, || self.pose_without_reach(time_secs)),
+            None => self.pose_without_reach(time_secs),
+        }
+    }
+
+    /// What is wanted apart from a reach.
+    pub(crate) fn pose_without_reach(&self, time_secs: f64) -> Pose {
         if let Some(motion) = &self.motion {
             return motion.pose_at(time_secs);
         }
@@ -318,6 +333,11 @@ impl Actor {
         }
         if let Some(performance) = self.performance.as_ref().filter(|performance| performance.is_followed()) {
             performance.source().write(&mut self.target);
+        }
+        if let Some(reaching) = &self.reaching {
+            let now = frame.time_secs + step_secs;
+            let poses = [now, now + step_secs].map(|secs| reaching.pose_at(secs, || self.pose_without_reach(secs)));
+            reaching::write(&poses, step_secs, &mut self.target);
         }
         if !self.has_layer(Layer::Poses) {
             for joint in &mut self.target.joints {

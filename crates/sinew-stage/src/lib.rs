@@ -13,6 +13,7 @@ mod obey;
 mod obey_kd;
 mod obey_stage;
 mod performance;
+mod reaching;
 mod reaction;
 mod recording;
 pub mod scene;

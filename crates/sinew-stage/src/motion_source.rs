@@ -123,6 +123,24 @@ impl MotionSource {
         pose
     }
 
+    /// Goes on at `now_secs` of the stage from where the clip was at `left_secs`, moved and turned about the vertical so that the
+    /// hips are over the place of a pose and face as there.
+    pub(crate) fn resume(&mut self, left_secs: f64, now_secs: f64, at: &Pose) {
+        let here = self.pose_at(left_secs);
+        let heading = |pose: &Pose| {
+            let forward = pose.world[0] * DVec3::Z;
+            libm::atan2(forward.x, forward.z)
+        };
+        let turn = DQuat::from_rotation_y(heading(at) - heading(&here));
+        let (from, to) = (here.hips_position, at.hips_position);
+        for pose in &mut self.poses {
+            let moved = turn * (pose.hips_position - from);
+            pose.hips_position = DVec3::new(to.x, from.y, to.z) + moved;
+            pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
+        }
+        self.start_secs += left_secs - now_secs;
+    }
+
     /// All poses, from the clip's start.
     pub fn poses(&self) -> &[Pose] {
         &self.poses

@@ -65,6 +65,16 @@ impl Stage {
                 }
                 format!("{who}'s {} reaches for {target:.2}", limb.part())
             }
+            Action::Reach(order) => match self.begin_reach(character, order)? {
+                Some(effect) => format!("{who} {effect}"),
+                None => return Ok(None),
+            },
+            Action::ReachEnd {} => {
+                if !self.actors[character].end_reach(self.world.frame().time_secs) {
+                    return Ok(None);
+                }
+                format!("{who} reaches no longer")
+            }
             Action::IkRelease { link } => {
                 let limb = link.as_deref().map(|link| self.part(character, link)).transpose()?;
                 self.actors[character].stop_reaching(limb);

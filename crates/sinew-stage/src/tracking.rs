@@ -17,6 +17,7 @@ impl Stage {
                 let name = &self.cast.characters()[index];
                 self.note("its stream", format!("{name} {word}"));
             }
+            self.step_reach(index);
             if let Some((cause, effect)) = self.actors[index].decide(&self.world, gravity) {
                 let name = &self.cast.characters()[index];
                 let effect = format!("{name}: {effect}");

@@ -5,7 +5,7 @@ pub(super) use character::{Character, module_def};
 #[rustpython_vm::pymodule(name = "_character")]
 #[allow(non_snake_case, reason = "Python's names, as the paper prints them")]
 pub(super) mod character {
-    use crate::host::{drive, drive_kd, sense, stage};
+    use crate::host::{drive, drive_kd, reach, sense, stage};
     use rustpython_vm::builtins::PyUtf8StrRef;
     use rustpython_vm::types::Representable;
     use rustpython_vm::{Py, PyObjectRef, PyPayload, PyResult, VirtualMachine, pyclass};
@@ -104,6 +104,16 @@ pub(super) mod character {
         #[pymethod]
         fn setIKTarget(&self, reach: drive::Reach, vm: &VirtualMachine) -> PyResult<()> {
             drive::reach(vm, self.place, reach)
+        }
+
+        #[pymethod]
+        fn reach(&self, reaching: reach::Reaching, vm: &VirtualMachine) -> PyResult<()> {
+            reach::reach(vm, self.place, reaching)
+        }
+
+        #[pymethod]
+        fn endReach(&self, vm: &VirtualMachine) -> PyResult<()> {
+            reach::end(vm, self.place)
         }
 
         #[pymethod]

@@ -18,6 +18,7 @@ mod fault;
 mod interpreter;
 mod maths;
 mod random;
+mod reach;
 mod sense;
 mod stage;
 mod words;

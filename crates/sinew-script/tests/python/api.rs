@@ -29,6 +29,16 @@ fn every_word_that_steers_makes_its_command() {
             json!({"do": "ik", "link": "leftFoot", "target_m": [1.0, 2.0, 3.0]}),
         ),
         ("setIKTarget([1, 2, 3.5])", json!({"do": "ik", "link": null, "target_m": [1.0, 2.0, 3.5]})),
+        (
+            "reach((1, 2, 3), hand='left', time=1.5)",
+            json!({"do": "reach", "hand": "left", "target_m": [1.0, 2.0, 3.0], "grasp": false, "avoid": [],
+                "flexibility": 1.0, "time_secs": 1.5}),
+        ),
+        (
+            "reach('Ball', grasp=True)",
+            json!({"do": "reach", "hand": "auto", "object": "Ball", "grasp": true, "avoid": [], "flexibility": 1.0}),
+        ),
+        ("endReach()", json!({"do": "reach_end"})),
         ("releaseIK()", json!({"do": "ik_release", "link": null})),
         ("releaseIK('RightArm')", json!({"do": "ik_release", "link": "rightHand"})),
         (

@@ -206,6 +206,12 @@ impl SceneSpec {
                 },
                 _ => Err("the character has no performer; write source = { live = {} } in its table".to_owned()),
             },
+            A::Reach(order) => {
+                self.owner(command)?;
+                order.check()?;
+                order.object.iter().chain(&order.avoid).try_for_each(|name| self.prop(name))
+            }
+            A::ReachEnd {} => self.owner(command).map(drop),
             A::Say { text } => words(text, MOST_WORDS),
         }
     }

@@ -5,8 +5,9 @@ use super::error::Fault;
 use super::range::number;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use sinew_control::ReachOrder;
 
-/// One of `pose`, `graph`, `clip`, `live`.
+/// One of `pose`, `graph`, `clip`, `live`, and `reach`, which may stand beside a pose or a clip.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SourceSpec {
@@ -24,6 +25,8 @@ pub struct SourceSpec {
     pub repeat: Option<bool>,
     /// A live performer.
     pub live: Option<LiveSpec>,
+    /// Something to reach for from the start, out of the pose or the clip beside it, where there is one.
+    pub reach: Option<ReachOrder>,
 }
 
 impl SourceSpec {
@@ -32,9 +35,15 @@ impl SourceSpec {
         let at = |key| ["characters", name, "source", key];
         let stated = [&self.pose, &self.graph, &self.clip].into_iter().flatten().count();
         let stated = stated + usize::from(self.live.is_some());
-        if stated != 1 {
+        if stated != 1 && !(stated == 0 && self.reach.is_some()) {
             let problem = format!("{stated} of pose, graph, clip and live are stated; keep exactly one");
             return Err(Fault::at(&path, problem));
+        }
+        if let Some(reach) = &self.reach {
+            if self.graph.is_some() || self.live.is_some() {
+                return Err(Fault::at(&at("reach"), "a reach begins in a pose or a clip; remove graph and live"));
+            }
+            reach.check().map_err(|problem| Fault::at(&at("reach"), problem))?;
         }
         if self.state.is_some() && self.graph.is_none() {
             return Err(Fault::at(&at("state"), "only a graph has states; add graph, or remove this"));
