@@ -14,15 +14,40 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+/// Two who hold on to each other, and a key with which one pulls.
+const SCENE: &str = r#"
+format = 1
+name = "two hold on to each other"
+[characters.red]
+[characters.blue]
+position_m = [0, 0, 1.2]
+facing_deg = 180
+[[at]]
+time_secs = 0
+character = "red"
+do = "attach"
+link = "rightHand"
+object = "blue.leftHand"
+soft = true
+[[keys]]
+key = "p"
+character = "red"
+do = "push"
+on = "rightHand"
+force_n = [0, 0, -150]
+for_secs = 0.2
+"#;
+
 /// Delay of the relay each way \[ms\].
 const DELAY_MS: u32 = 40;
 
 /// Runs two actors and a stage on three hosts, kills one actor and lets it come back, and checks hashes and times. Says that it
-/// is skipped where namespaces are not permitted.
+/// is skipped where namespaces are not permitted. The scene has actors `red` and `blue`, and a key with which red pulls; without
+/// one it is a scene of its own.
 ///
 /// # Errors
 /// When a claim does not hold.
-pub fn run(scene: &Path, key: &str) -> Result<(), String> {
+pub fn run(scene: Option<(&Path, &str)>) -> Result<(), String> {
     let root = repository::root();
     let hosts = match Hosts::make() {
         Ok(hosts) => hosts,
@@ -38,6 +63,9 @@ pub fn run(scene: &Path, key: &str) -> Result<(), String> {
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from).join("debug");
     let folder = std::env::temp_dir().join(format!("sinew-hosts-{}", std::process::id()));
     fs::create_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let own = folder.join("scene.toml");
+    fs::write(&own, SCENE).map_err(|error| format!("{}: {error}", own.display()))?;
+    let (scene, key) = scene.unwrap_or((&own, "p"));
     let done = Session { hosts: &hosts, target: &target, folder: &folder, scene, key }.run();
     let _ = fs::remove_dir_all(&folder);
     done
