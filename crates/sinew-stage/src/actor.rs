@@ -292,7 +292,7 @@ impl Actor {
             return motion.pose_at(time_secs);
         }
         if let Some(performer) = self.followed() {
-            return *performer.pose();
+            return performer.pose_at(time_secs);
         }
         let mut locals = self.target.joints.map(|joint| joint.rotation);
         locals[0] = self.stand.1;

@@ -106,3 +106,32 @@ fn a_performance_replays_to_the_same_bits_from_its_commands() {
     }
     assert_eq!(again.hash(), first.hash());
 }
+
+#[test]
+fn a_simulated_body_that_loses_its_performer_stands_and_takes_up_again_without_a_pop() {
+    let text = SCENE.replace("kinematic", "kd");
+    let mut stage = Stage::new(Scene::from_text(&text).unwrap(), None).unwrap();
+    let red = stage.cast().character("red").unwrap();
+    let (mut lowest, mut farthest) = (f64::INFINITY, 0.0f64);
+    let mut before: Option<Vec<DVec3>> = None;
+    for step in 0..2400 {
+        // Silence from the second to the sixth second.
+        if step % 4 == 0 && !(480..1440).contains(&step) {
+            let sample = performed(f64::from(step) / 240.0);
+            stage.command(Command::to("red", Action::Perform { sample: Box::new(sample) }));
+        }
+        stage.step();
+        let seen = &stage.frame().characters[red];
+        let places: Vec<DVec3> = seen.parts.iter().map(|part| part.position).collect();
+        let ways = before.iter().flatten().zip(&places).map(|(a, b)| a.distance(*b));
+        farthest = ways.fold(farthest, f64::max);
+        lowest = lowest.min(seen.part(Node::Hips).position.y);
+        before = Some(places);
+    }
+    // It performs at 0.6 m/s, and what is blended on top has 0.8 m/s; 2 cm in a step would be 4.8.
+    assert!(farthest < 0.02, "{:.1} mm", farthest * 1e3);
+    // Its hips stand at 0.93 m.
+    assert!(lowest > 0.85, "{lowest}");
+    let performance = stage.state_of(red).unwrap().performance().unwrap();
+    assert_eq!((performance.presence(), performance.gain()), (Presence::Performing, 1.0));
+}

@@ -75,6 +75,8 @@ pub struct LiveSource {
     shown: Pose,
     before: Pose,
     step_secs: f64,
+    /// The end of the step \[s\].
+    until_secs: f64,
     gain: f64,
 }
 
@@ -95,6 +97,9 @@ const RETURN_SECS: f64 = 0.4;
 
 /// Least time over which a gap is bridged \[s\].
 const BRIDGE_SECS: f64 = 0.1;
+
+/// How far ahead a pose is foretold \[s\]: a motion frame at 30 Hz.
+const MOST_AHEAD_SECS: f64 = 0.034;
 
 /// Passed samples looked at in one step.
 const MOST_PASSED: usize = 64;
@@ -122,6 +127,7 @@ impl LiveSource {
             shown: *first,
             before: *first,
             step_secs: 1.0 / 240.0,
+            until_secs: 0.0,
             gain: 1.0,
             settings,
         }
@@ -171,6 +177,7 @@ impl LiveSource {
     /// Returns the new presence when it changes.
     pub fn advance(&mut self, now_secs: f64, step_secs: f64) -> Option<Presence> {
         self.step_secs = step_secs;
+        self.until_secs = now_secs + step_secs;
         let was = self.presence;
         self.presence = self.presence_at(now_secs);
         if was != self.presence && self.presence == Presence::Relaxed {
@@ -270,6 +277,23 @@ impl LiveSource {
     /// What is wanted at the end of the step.
     pub fn pose(&self) -> &Pose {
         &self.shown
+    }
+
+    /// What will be wanted at a time of the stage soon after the end of the step \[s\], as far as can be told now: for trackers that
+    /// are told where a motion frame ends.
+    pub fn pose_at(&self, time_secs: f64) -> Pose {
+        let ahead = (time_secs - self.until_secs).clamp(0.0, MOST_AHEAD_SECS);
+        let Some(playhead) = self.playhead.filter(|_| self.presence == Presence::Performing && ahead > 0.0) else {
+            return self.shown;
+        };
+        let (Some(now), Some(then)) = (self.buffer.at(playhead), self.buffer.at(playhead + ahead)) else {
+            return self.shown;
+        };
+        let locals = Node::ALL.map(|node| {
+            let turned = now.local(node).conjugate() * then.local(node);
+            (self.shown.local(node) * turned).normalize()
+        });
+        Pose::from_locals(self.shown.hips_position + then.hips_position - now.hips_position, &locals)
     }
 
     /// Whether and how the performer is there.
