@@ -76,6 +76,7 @@ fn the_defaults_that_the_page_shows_are_those_of_the_code() {
             aliases: BTreeMap::new(),
             friction: None,
             colour: None,
+            kd: usual.kd.clone(),
             response: usual.response.clone(),
             ..left.clone()
         },
