@@ -24,6 +24,6 @@ mod snapshot;
 
 pub use error::ScriptError;
 pub use limits::Limits;
-pub use names::{CharacterNames, Names, StartInfo};
+pub use names::{CharacterNames, JointName, Names, StartInfo};
 pub use script::{Script, ScriptHost, StepOutcome};
-pub use snapshot::{CharacterState, Contact, ObjectState, PartState, Snapshot, Thing};
+pub use snapshot::{CharacterState, Contact, JointState, ObjectState, PartState, Snapshot, Thing};

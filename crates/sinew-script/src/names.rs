@@ -11,7 +11,7 @@ pub struct StartInfo {
     pub file: String,
     /// The class in it that is the controller.
     pub class: String,
-    /// The character that it controls, one of [`Names::characters`].
+    /// The character that it controls, one of [`Names::characters`], or the prop, one of [`Names::objects`].
     pub own: String,
     /// What the script's `random` numbers begin with.
     pub seed: u64,
@@ -28,6 +28,8 @@ pub struct Names {
     pub characters: Vec<CharacterNames>,
     /// Props, in the order of [`Snapshot::objects`](crate::Snapshot::objects).
     pub objects: Vec<String>,
+    /// Joints of props, in the order of [`Snapshot::joints`](crate::Snapshot::joints).
+    pub joints: Vec<JointName>,
     /// Key poses.
     pub poses: Vec<String>,
     /// Pose graphs.
@@ -38,6 +40,15 @@ pub struct Names {
     pub reflexes: Vec<String>,
     /// Trackers.
     pub trackers: Vec<String>,
+}
+
+/// A joint's name.
+#[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct JointName {
+    /// Its name in the scene.
+    pub name: String,
+    /// It is a hinge, and not a slider or another joint.
+    pub turns: bool,
 }
 
 /// A character's own names.

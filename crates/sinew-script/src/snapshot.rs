@@ -15,6 +15,8 @@ pub struct Snapshot {
     pub characters: Vec<CharacterState>,
     /// Props, in the order of [`Names::objects`](crate::Names::objects).
     pub objects: Vec<ObjectState>,
+    /// Joints of props, in the order of [`Names::joints`](crate::Names::joints).
+    pub joints: Vec<JointState>,
     /// What touches.
     pub contacts: Vec<Contact>,
 }
@@ -54,6 +56,21 @@ pub struct ObjectState {
     pub position: [f64; 3],
     /// The centre's velocity \[m/s\].
     pub velocity: [f64; 3],
+    /// `world_from_prop`, x, y, z, w.
+    pub rotation: [f64; 4],
+    /// Angular velocity \[rad/s\].
+    pub spin: [f64; 3],
+}
+
+/// A joint of props.
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
+pub struct JointState {
+    /// A hinge's angle \[degrees\], a slider's shift \[m\], else the distance of the ends \[m\].
+    pub place: f64,
+    /// How fast that changes \[rad/s, m/s\].
+    pub speed: f64,
+    /// Neither cut nor broken.
+    pub is_whole: bool,
 }
 
 /// Something that can touch or be touched.
@@ -91,6 +108,7 @@ impl Snapshot {
         };
         self.characters.len() == characters
             && self.objects.len() == objects
+            && self.joints.len() == names.joints.len()
             && self.contacts.iter().all(|contact| known(contact.a) && known(contact.b))
             && self.characters.iter().all(|character| {
                 character.parts.len() == parts

@@ -188,6 +188,14 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
             stage.start_controller(index, controller).map_err(wrong)?;
         }
     }
+    for (prop, (name, spec)) in scene.props.iter().enumerate() {
+        let Some(controller) = &spec.controller else { continue };
+        stage.start_prop_controller(prop, controller).map_err(|problem| StageError {
+            file: scene.file_name().to_owned(),
+            place: format!("props.{name}"),
+            problem,
+        })?;
+    }
     Ok(())
 }
 

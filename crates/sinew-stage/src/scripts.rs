@@ -1,11 +1,19 @@
 //! Python controllers on the stage: started, stepped, reloaded, stopped.
 
 use crate::Stage;
+use crate::scene::JointKind;
 use crate::sight::{names, snapshot};
 use sinew_control::{Action, Command, Layer};
 use sinew_script::{Script, StartInfo};
 
-/// A controller that runs a character.
+/// What a controller runs, by its place in the frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Owner {
+    Character(usize),
+    Prop(usize),
+}
+
+/// A controller that runs a character or a prop.
 pub(crate) struct Running {
     /// Its name in the scene.
     pub name: String,
@@ -19,6 +27,20 @@ impl Stage {
             self.actors[character].script = None;
             return Ok(());
         }
+        let own = self.cast.characters()[character].clone();
+        self.actors[character].script = Some(self.start_script(name, own)?);
+        Ok(())
+    }
+
+    /// Starts a controller of the scene for a prop.
+    pub(crate) fn start_prop_controller(&mut self, prop: usize, name: &str) -> Result<(), String> {
+        let own = self.cast.props()[prop].clone();
+        let running = self.start_script(name, own)?;
+        self.prop_scripts.insert(prop, running);
+        Ok(())
+    }
+
+    fn start_script(&self, name: &str, own: String) -> Result<Running, String> {
         let known = || self.scene.controllers.keys().cloned().collect::<Vec<_>>().join(", ");
         let spec = self.scene.controllers.get(name);
         let spec = spec.ok_or_else(|| format!("no controller `{name}`; there are {}", known()))?;
@@ -27,17 +49,38 @@ impl Stage {
             source,
             file: spec.file.clone().unwrap_or_else(|| format!("controllers.{name}")),
             class: spec.class.clone().unwrap_or_else(|| name.to_owned()),
-            own: self.cast.characters()[character].clone(),
+            own,
             seed: self.scene.stage.seed,
             names: names(&self.scene, &self.cast),
         };
         let host = self.host.clone().ok_or("this program runs no Python controllers")?;
         let script = Script::start(host, &info).map_err(|error| error.to_string())?;
-        self.actors[character].script = Some(Running { name: name.to_owned(), script });
-        Ok(())
+        Ok(Running { name: name.to_owned(), script })
     }
 
-    /// Reads a controller's text again, for every character that it runs.
+    /// Everything that a controller runs: characters, then props.
+    fn owners(&self) -> Vec<Owner> {
+        let characters = (0..self.actors.len()).map(Owner::Character);
+        characters.chain(self.prop_scripts.keys().map(|&prop| Owner::Prop(prop))).collect()
+    }
+
+    fn running(&mut self, owner: Owner) -> Option<&mut Running> {
+        match owner {
+            Owner::Character(character) => self.actors.get_mut(character)?.script.as_mut(),
+            Owner::Prop(prop) => self.prop_scripts.get_mut(&prop),
+        }
+    }
+
+    /// Whether a controller is to be called.
+    fn is_called(&mut self, owner: Owner) -> bool {
+        let has_layer = match owner {
+            Owner::Character(character) => self.actors[character].has_layer(Layer::Scripts),
+            Owner::Prop(_) => true,
+        };
+        has_layer && self.running(owner).is_some_and(|running| running.script.is_running())
+    }
+
+    /// Reads a controller's text again, for everything that it runs.
     pub(crate) fn reload(&mut self, name: &str, text: Option<&str>) -> Result<String, String> {
         let text = match text {
             Some(text) => text.to_owned(),
@@ -50,42 +93,41 @@ impl Stage {
             command.command.action = Action::Reload { name: name.to_owned(), text: Some(text.clone()) };
         }
         let mut count = 0;
-        for actor in &mut self.actors {
-            if let Some(running) = actor.script.as_mut().filter(|running| running.name == name) {
+        for owner in self.owners() {
+            if let Some(running) = self.running(owner).filter(|running| running.name == name) {
                 running.script.reload(&text).map_err(|error| format!("{error}; the old text goes on"))?;
                 count += 1;
             }
         }
         if count == 0 {
-            return Err(format!("no character is run by `{name}`"));
+            return Err(format!("nothing is run by `{name}`"));
         }
         Ok(format!("{name} goes on with its new text"))
     }
 
     /// Stops a script that did not come back, or that did not when the take was recorded.
     pub(crate) fn kill_script(&mut self, name: &str, reason: &str) -> Result<String, String> {
-        for actor in &mut self.actors {
-            if let Some(running) = actor.script.as_mut().filter(|running| running.name == name) {
+        for owner in self.owners() {
+            if let Some(running) = self.running(owner).filter(|running| running.name == name) {
                 running.script.kill();
             }
         }
         Ok(format!("{name} is stopped: {reason}"))
     }
 
-    /// Calls every script that runs, in the order of the characters, and obeys it.
+    /// Calls every script that runs, in the order of the characters, then of the props, and obeys it.
     pub(crate) fn step_scripts(&mut self, step: u64) {
-        let runs = |actor: &crate::Actor| {
-            actor.has_layer(Layer::Scripts) && actor.script.as_ref().is_some_and(|running| running.script.is_running())
-        };
-        if !self.actors.iter().any(runs) {
+        let owners = self.owners();
+        if !owners.iter().any(|&owner| self.is_called(owner)) {
             return;
         }
-        let seen = snapshot(&self.world);
-        for index in 0..self.actors.len() {
-            if !runs(&self.actors[index]) || self.is_to_be_killed(index, step) {
+        let hinges: Vec<bool> = self.scene.joints.values().map(|joint| joint.kind == JointKind::Hinge).collect();
+        let seen = snapshot(&self.world, &hinges);
+        for owner in owners {
+            if !self.is_called(owner) || self.is_to_be_killed(owner, step) {
                 continue;
             }
-            let Some(running) = &mut self.actors[index].script else { continue };
+            let Some(running) = self.running(owner) else { continue };
             let name = running.name.clone();
             let outcome = running.script.step(&seen);
             for line in outcome.printed {
@@ -106,8 +148,8 @@ impl Stage {
     }
 
     /// In a replay a script is stopped where it was stopped then, before it is called.
-    fn is_to_be_killed(&mut self, index: usize, step: u64) -> bool {
-        let Some(name) = self.actors[index].script.as_ref().map(|running| running.name.clone()) else { return false };
+    fn is_to_be_killed(&mut self, owner: Owner, step: u64) -> bool {
+        let Some(name) = self.running(owner).map(|running| running.name.clone()) else { return false };
         let prescribed = crate::take::due(self.prescribed.as_deref().unwrap_or_default(), step);
         let kill = prescribed.iter().find(
             |timed| matches!(&timed.command.action, Action::ScriptKilled { name: killed, .. } if *killed == name),

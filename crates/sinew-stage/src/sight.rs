@@ -1,9 +1,11 @@
 //! What a script sees: the frame in the script's own words.
 
 use crate::cast::Cast;
-use crate::scene::Scene;
+use crate::scene::{JointKind, Scene};
 use sinew_body::humanoid::Node;
-use sinew_script::{CharacterNames, CharacterState, Contact, Names, ObjectState, PartState, Snapshot, Thing};
+use sinew_script::{
+    CharacterNames, CharacterState, Contact, JointName, JointState, Names, ObjectState, PartState, Snapshot, Thing,
+};
 use sinew_world::{Entity, World};
 
 /// Names that scripts can use.
@@ -15,11 +17,16 @@ pub(crate) fn names(scene: &Scene, cast: &Cast) -> Names {
         name: name.clone(),
         aliases: cast.aliases(index).map(|(alias, node)| (alias.clone(), node.part().name().to_owned())).collect(),
     });
+    let joints = scene
+        .joints
+        .iter()
+        .map(|(name, joint)| JointName { name: name.clone(), turns: joint.kind == JointKind::Hinge });
     let trackers = crate::scene::TrackerKind::ALL.map(|kind| kind.name().to_owned());
     Names {
         parts: Node::ALL.map(|node| node.part().name().to_owned()).to_vec(),
         characters: characters.collect(),
         objects: cast.props().to_vec(),
+        joints: joints.collect(),
         poses: with(scene.poses.keys().cloned().collect(), &["stand"]),
         graphs: scene.graphs.keys().cloned().collect(),
         shapes: with(scene.shapes.keys().cloned().collect(), &["own", "none"]),
@@ -36,8 +43,8 @@ fn thing(entity: Entity) -> Thing {
     }
 }
 
-/// The world as it is now.
-pub(crate) fn snapshot(world: &World) -> Snapshot {
+/// The world as it is now; `hinges` tells which joints of the scene turn.
+pub(crate) fn snapshot(world: &World, hinges: &[bool]) -> Snapshot {
     let frame = world.frame();
     let characters = frame.characters.iter().enumerate().map(|(index, character)| CharacterState {
         parts: character
@@ -59,8 +66,17 @@ pub(crate) fn snapshot(world: &World) -> Snapshot {
             .map(|held| (held.node.index(), thing(held.object)))
             .collect(),
     });
-    let objects =
-        frame.props.iter().map(|prop| ObjectState { position: prop.centre.into(), velocity: prop.velocity.into() });
+    let objects = frame.props.iter().map(|prop| ObjectState {
+        position: prop.centre.into(),
+        velocity: prop.velocity.into(),
+        rotation: prop.rotation.into(),
+        spin: prop.angular_velocity.into(),
+    });
+    let joints = hinges.iter().enumerate().map(|(joint, &turns)| {
+        let state = world.prop_joint(joint);
+        let place = if turns { state.place.to_degrees() } else { state.place };
+        JointState { place, speed: state.speed, is_whole: state.is_whole }
+    });
     let contacts = frame.contacts.iter().map(|contact| Contact {
         a: thing(contact.a),
         b: thing(contact.b),
@@ -73,6 +89,7 @@ pub(crate) fn snapshot(world: &World) -> Snapshot {
         step_secs: world.settings().step_secs(),
         characters: characters.collect(),
         objects: objects.collect(),
+        joints: joints.collect(),
         contacts: contacts.collect(),
     }
 }

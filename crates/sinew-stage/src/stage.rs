@@ -9,6 +9,7 @@ use crate::cast::Cast;
 use crate::event::{Event, Events};
 use crate::reaction::Reactions;
 use crate::scene::Scene;
+use crate::scripts::Running;
 use crate::span::Spans;
 use crate::take::{self, Stamped};
 use sinew_body::humanoid::Node;
@@ -37,6 +38,8 @@ pub struct Stage {
     reactions: Reactions,
     /// Joints of the scene that are cut or broken, as far as that is noted.
     pub(crate) broken: BTreeSet<usize>,
+    /// Controllers of props.
+    pub(crate) prop_scripts: BTreeMap<usize, Running>,
     /// Commands for the next step.
     inbox: Vec<Command>,
     /// The scene's own commands that are still to come, the next one last.
@@ -90,6 +93,7 @@ impl Stage {
             prescribed: None,
             reactions,
             broken: BTreeSet::new(),
+            prop_scripts: BTreeMap::new(),
             inbox: Vec::new(),
             timed,
             hasher: xxhash_rust::xxh3::Xxh3::new(),

@@ -1,6 +1,6 @@
 //! A Python with nothing in it but what a controller needs.
 
-use super::{character, console, maths, random, words};
+use super::{character, console, devices, maths, random, words};
 use rustpython_vm::builtins::PyTypeRef;
 use rustpython_vm::common::rc::PyRc;
 use rustpython_vm::compiler::Mode;
@@ -44,6 +44,7 @@ pub(super) fn new() -> Interpreter {
     let modules = [
         character::module_def(&builder.ctx),
         console::module_def(&builder.ctx),
+        devices::module_def(&builder.ctx),
         maths::module_def(&builder.ctx),
         random::module_def(&builder.ctx),
         words::module_def(&builder.ctx),
@@ -62,7 +63,7 @@ pub(super) fn new() -> Interpreter {
 
 fn prepare(vm: &VirtualMachine) -> PyResult<()> {
     vm.recursion_limit.set(NESTING);
-    for module in ["_console", "_character", "_words"] {
+    for module in ["_console", "_character", "_devices", "_words"] {
         vm.import(module, 0)?;
     }
     for name in ["stdout", "stderr", "__stdout__", "__stderr__"] {

@@ -12,6 +12,7 @@ mod bounds;
 mod character;
 mod console;
 mod controller;
+mod devices;
 mod drive;
 mod drive_kd;
 mod fault;

@@ -10,8 +10,10 @@ const LISTED: usize = 30;
 
 pub(super) struct Stage {
     pub names: Names,
-    /// The script's own character.
-    pub own: usize,
+    /// The script's own character; none when it runs a prop.
+    pub own: Option<usize>,
+    /// The name of that character or prop.
+    pub me: String,
     pub snapshot: Snapshot,
     /// State of the random numbers.
     pub random: u64,
@@ -63,7 +65,9 @@ impl Stage {
         let own = info.names.characters.iter().position(|character| character.name == info.own);
         Stage {
             names: info.names.clone(),
-            own: own.unwrap_or(0),
+            // A script that nobody was named for gets the first character.
+            own: own.or_else(|| (!info.names.objects.contains(&info.own)).then_some(0)),
+            me: info.own.clone(),
             snapshot: Snapshot::default(),
             random: info.seed,
             limits,
@@ -137,11 +141,11 @@ impl Stage {
             return Err(format!("more than {} commands in one step", self.limits.commands));
         }
         let character = match character {
-            Some(place) if place != self.own => {
-                let (own, other) = (&self.names.characters[self.own].name, &self.names.characters[place].name);
+            Some(place) if Some(place) != self.own => {
+                let (own, other) = (&self.me, self.names.characters.get(place).map_or("", |names| &names.name));
                 return Err(format!("this script controls '{own}'; it can watch '{other}' but not steer it"));
             }
-            Some(place) => Some(self.names.characters[place].name.clone()),
+            Some(place) => self.names.characters.get(place).map(|names| names.name.clone()),
             None => None,
         };
         self.commands.push(Command { character, action });
@@ -186,6 +190,12 @@ impl Stage {
         one_of("object", name, &self.names.objects)
     }
 
+    /// The place of a joint by its name.
+    pub fn joint(&self, name: &str) -> Result<usize, String> {
+        let known = self.names.joints.iter().position(|joint| joint.name == name);
+        known.ok_or_else(|| unknown("joint", name, self.names.joints.iter().map(|joint| joint.name.as_str())))
+    }
+
     /// What a name stands for: the ground, a prop, a character, `character.part`, or a part of the own character.
     pub fn find(&self, name: &str) -> Result<Found, String> {
         if name == "ground" {
@@ -203,8 +213,10 @@ impl Stage {
                 return self.part(character, &name[dot + 1..]).map(|part| Found::Thing(Thing::Part(character, part)));
             }
         }
-        if let Ok(part) = self.part(self.own, name) {
-            return Ok(Found::Thing(Thing::Part(self.own, part)));
+        if let Some(own) = self.own
+            && let Ok(part) = self.part(own, name)
+        {
+            return Ok(Found::Thing(Thing::Part(own, part)));
         }
         let names = self.names.characters.iter().map(|character| character.name.as_str());
         let known = self.names.objects.iter().map(String::as_str).chain(names).chain(["ground"]);

@@ -20,6 +20,20 @@ const WORDS: [&str; 10] = [
     "say",
 ];
 
+/// Those for props and joints.
+const DEVICE_WORDS: [&str; 10] = [
+    "push",
+    "setGravity",
+    "setMotor",
+    "cut",
+    "getRotation",
+    "getSpin",
+    "toWorld",
+    "getJointPlace",
+    "getJointSpeed",
+    "isJointWhole",
+];
+
 /// Puts everything that a script can say into its scope.
 pub(super) fn offer(vm: &VirtualMachine, globals: &PyDictRef) -> PyResult<()> {
     // Imported when the interpreter was made; the gate before imports is closed to them now.
@@ -28,7 +42,13 @@ pub(super) fn offer(vm: &VirtualMachine, globals: &PyDictRef) -> PyResult<()> {
         globals.set_item(name, words.get_attr(vm.ctx.intern_str(name), vm)?, vm)?;
     }
     globals.set_item("Vector", interpreter::vector_class(vm).into(), vm)?;
-    globals.set_item("skeleton", character::object(vm, stage::with(|stage| stage.own)), vm)?;
+    let devices = vm.sys_module.get_attr("modules", vm)?.get_item("_devices", vm)?;
+    for name in DEVICE_WORDS {
+        globals.set_item(name, devices.get_attr(vm.ctx.intern_str(name), vm)?, vm)?;
+    }
+    let (own, me) = stage::with(|stage| (stage.own, stage.me.clone()));
+    globals.set_item("skeleton", own.map_or_else(|| vm.ctx.none(), |own| character::object(vm, own)), vm)?;
+    globals.set_item("me", vm.ctx.new_str(me).into(), vm)?;
     globals.set_item("__name__", vm.ctx.new_str("controller").into(), vm)
 }
 
@@ -50,12 +70,17 @@ pub(super) mod words {
     }
 
     /// Where something is and how it moves; a character's hips stand for it.
-    fn state(stage: &Stage, found: Found) -> Result<ObjectState, String> {
+    pub(in crate::host) fn state(stage: &Stage, found: Found) -> Result<ObjectState, String> {
         stage.ready()?;
         let of_part = |character: usize, part: usize| {
             let state = stage.character(character)?.parts.get(part);
             state
-                .map(|state| ObjectState { position: state.position, velocity: state.velocity })
+                .map(|state| ObjectState {
+                    position: state.position,
+                    velocity: state.velocity,
+                    rotation: state.rotation,
+                    ..ObjectState::default()
+                })
                 .ok_or_else(String::new)
         };
         match found {
@@ -148,7 +173,7 @@ pub(super) mod words {
         let text = cut(&text.str(vm)?.to_string_lossy(), MAX_TEXT);
         let acted = stage::with(|stage| {
             let own = stage.own;
-            stage.act(Some(own), Action::Say { text })
+            stage.act(own, Action::Say { text })
         });
         raised(vm, acted)
     }

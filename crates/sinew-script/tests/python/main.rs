@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
 mod api;
+mod devices;
 mod dunk;
 mod hostile;
 mod modules;

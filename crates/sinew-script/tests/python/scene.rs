@@ -1,8 +1,8 @@
 //! A scene to test in: two characters of three parts, a ball and a rim.
 
 use sinew_script::{
-    CharacterNames, CharacterState, Limits, Names, ObjectState, PartState, Script, ScriptError, ScriptHost, Snapshot,
-    StartInfo, StepOutcome,
+    CharacterNames, CharacterState, JointName, JointState, Limits, Names, ObjectState, PartState, Script, ScriptError,
+    ScriptHost, Snapshot, StartInfo, StepOutcome,
 };
 use std::path::PathBuf;
 
@@ -11,6 +11,9 @@ pub const RIGHT_HAND: usize = 1;
 pub const LEFT_FOOT: usize = 2;
 pub const BALL: usize = 0;
 pub const RIM: usize = 1;
+
+/// A quarter turn about y: z becomes x.
+const QUARTER_ABOUT_Y: [f64; 4] = [0.0, std::f64::consts::FRAC_1_SQRT_2, 0.0, std::f64::consts::FRAC_1_SQRT_2];
 
 fn strings(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.to_owned()).collect()
@@ -32,6 +35,10 @@ pub fn info(source: &str) -> StartInfo {
             CharacterNames { name: "right".to_owned(), aliases: Vec::new() },
         ],
         objects: strings(&["Ball", "Rim"]),
+        joints: vec![
+            JointName { name: "wheel".to_owned(), turns: true },
+            JointName { name: "drawer".to_owned(), turns: false },
+        ],
         poses: strings(&["PrepareDunk", "Landing"]),
         graphs: strings(&["walk"]),
         shapes: strings(&["own", "none", "skis"]),
@@ -70,8 +77,12 @@ pub fn snapshot() -> Snapshot {
         step_secs: 1.0 / 240.0,
         characters: vec![character(0.0), character(2.0)],
         objects: vec![
-            ObjectState { position: [0.25, 1.5, 0.5], velocity: [0.0; 3] },
-            ObjectState { position: [0.0, 3.05, 1.0], velocity: [0.0; 3] },
+            ObjectState { position: [0.25, 1.5, 0.5], rotation: QUARTER_ABOUT_Y, ..ObjectState::default() },
+            ObjectState { position: [0.0, 3.05, 1.0], rotation: [0.0, 0.0, 0.0, 1.0], ..ObjectState::default() },
+        ],
+        joints: vec![
+            JointState { place: 30.0, speed: 2.0, is_whole: true },
+            JointState { place: 0.25, speed: -1.0, is_whole: false },
         ],
         contacts: Vec::new(),
     }
