@@ -5,6 +5,7 @@ use crate::performance::Performance;
 use crate::reaching::{self, Reaching};
 use crate::scene::TrackerKind;
 use crate::scripts::Running;
+use crate::stance::Stance;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, Node, Pose};
 use sinew_control::graph::{Cause, Graph, GraphPlayer};
@@ -39,6 +40,8 @@ pub struct Actor {
     pub(crate) stand: (DVec3, DQuat),
     /// Height of the floor that its soles keep to when no source moves its hips, for a tracker that holds the hips \[m\].
     pub(crate) sole_m: Option<f64>,
+    /// What moves that place over the ground.
+    pub(crate) stance: Stance,
     pub(crate) motion: Option<MotionSource>,
     pub(crate) reaching: Option<Reaching>,
     pub(crate) performance: Option<Performance>,
@@ -81,6 +84,7 @@ impl Actor {
             response: None,
             stand: (DVec3::ZERO, DQuat::IDENTITY),
             sole_m: None,
+            stance: Stance::default(),
             motion: None,
             reaching: None,
             performance: None,
@@ -301,6 +305,17 @@ impl Actor {
             pose.hips_position.y = sole_m + hips_over_soles_m(&self.body, &pose);
         }
         pose
+    }
+
+    /// A body whose source knows no place goes where its standing foot has it go.
+    pub(crate) fn step_stance(&mut self) {
+        if self.sole_m.is_none() || self.moves_root() {
+            return;
+        }
+        let mut locals = self.target.joints.map(|joint| joint.rotation);
+        locals[0] = self.stand.1;
+        let pose = Pose::from_locals(self.stand.0, &locals);
+        self.stand.0 += self.stance.step(&self.body, &pose);
     }
 
     /// Decides what is wanted at the end of the next step. Returns what the graph did, if it did something: cause and effect.

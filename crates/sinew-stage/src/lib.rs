@@ -21,6 +21,7 @@ mod scripts;
 mod sight;
 mod span;
 mod stage;
+mod stance;
 pub mod take;
 mod tracking;
 

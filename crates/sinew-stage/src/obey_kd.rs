@@ -112,6 +112,7 @@ impl Stage {
         let facing = frame.facing;
         let turn = glam::DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
         self.actors[character].stand = (frame.parts[0].position, turn);
+        self.actors[character].stance.forget();
     }
 
     fn kd(&mut self, character: usize) -> Result<&mut KdTracker, String> {

@@ -56,6 +56,9 @@ impl Stage {
                     self.stand_here(index);
                 }
                 let actor = &mut self.actors[index];
+                if wants_pose {
+                    actor.step_stance();
+                }
                 let wanted = wants_pose.then(|| actor.wanted_pose(frame_end));
                 let Some(tracker) = &mut actor.kd else { return };
                 if let Some(wanted) = wanted {
