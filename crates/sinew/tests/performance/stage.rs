@@ -1,0 +1,88 @@
+//! Running a shipped scene step by step.
+
+use glam::DVec3;
+use sinew::body::humanoid::Node;
+use sinew::script::{Limits, ScriptHost};
+use sinew::stage::{Scene, Stage};
+use sinew::world::{CharacterFrame, Entity};
+use std::path::{Path, PathBuf};
+
+pub fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
+fn host() -> ScriptHost {
+    // Many tests share the machine: a script that is only slow must not be taken for one that never returns.
+    let limits = Limits { step_secs: 20.0, startup_secs: 60.0, ..Limits::default() };
+    ScriptHost { program: env!("CARGO_BIN_EXE_sinew").into(), args: vec!["script-host".to_owned()], limits }
+}
+
+/// A shipped scene, with values changed by their paths.
+pub fn shipped(name: &str, sets: &[(&str, &str)]) -> Stage {
+    let mut scene = Scene::read(&folder().join(format!("{name}.toml"))).unwrap_or_else(|error| panic!("{error}"));
+    for (path, value) in sets {
+        scene.set(path, value).unwrap_or_else(|error| panic!("{error}"));
+    }
+    of(scene)
+}
+
+pub fn of(scene: Scene) -> Stage {
+    Stage::new(scene, Some(host())).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Steps until a time \[s\], looking at every frame.
+pub fn until(stage: &mut Stage, time_secs: f64, mut look: impl FnMut(&Stage)) {
+    while stage.frame().time_secs < time_secs - 1e-9 {
+        stage.step();
+        look(stage);
+    }
+    let wrong: Vec<_> = stage
+        .events()
+        .list()
+        .iter()
+        .filter(|event| event.effect.contains("refused") || event.effect.contains("error"))
+        .collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+pub fn prop(stage: &Stage, name: &str) -> usize {
+    stage.cast().prop(name).unwrap()
+}
+
+pub fn prop_centre(stage: &Stage, name: &str) -> DVec3 {
+    stage.frame().props[prop(stage, name)].centre
+}
+
+pub fn character<'a>(stage: &'a Stage, name: &str) -> &'a CharacterFrame {
+    &stage.frame().characters[stage.cast().character(name).unwrap()]
+}
+
+pub fn centre(stage: &Stage, name: &str, node: Node) -> DVec3 {
+    character(stage, name).part(node).centre
+}
+
+/// Upward impulse that a thing gives a character in this step \[N s\].
+pub fn borne(stage: &Stage, name: &str, by: impl Fn(Entity) -> bool) -> f64 {
+    let who = stage.cast().character(name).unwrap();
+    let is_part = |entity| matches!(entity, Entity::Part(character, _) if character == who);
+    let contacts = stage.frame().contacts.iter();
+    contacts
+        .map(|contact| match (is_part(contact.a), is_part(contact.b)) {
+            (true, false) if by(contact.b) => -contact.impulse.y,
+            (false, true) if by(contact.a) => contact.impulse.y,
+            _ => 0.0,
+        })
+        .sum()
+}
+
+/// Height of the lower ankle over the ground \[m\]; about 0.09 standing.
+pub fn lower_ankle_m(stage: &Stage, name: &str) -> f64 {
+    let frame = character(stage, name);
+    frame.part(Node::LeftFoot).position.y.min(frame.part(Node::RightFoot).position.y)
+}
+
+/// When something first happened \[s\].
+pub fn when(stage: &Stage, effect: &str) -> f64 {
+    let found = stage.events().list().iter().find(|event| event.effect.contains(effect));
+    found.unwrap_or_else(|| panic!("no `{effect}` in {:#?}", stage.events().list())).time_secs
+}
