@@ -39,6 +39,6 @@ fn the_hand_moves_the_balloon_until_the_balloon_takes_the_weight_and_flies_off_w
     let (hand, hips) = (frame.part(Node::RightHand).centre, frame.part(Node::Hips).centre);
     let balloon = prop_centre(&stage, "balloon");
     // It hangs: balloon over hand over body, all arms stretched.
-    assert!(balloon.y > hand.y + 1.0 && hand.y > hips.y + 0.6, "{balloon} {hand} {hips}");
+    assert!(balloon.y > hand.y + 1.0 && hand.y > hips.y + 0.5, "{balloon} {hand} {hips}");
     assert!(frame.centre_velocity.y > 0.1, "{}", frame.centre_velocity);
 }

@@ -18,7 +18,7 @@ fn the_car_drives_turns_and_brakes_and_its_driver_sways_outward() {
     until(&mut stage, 2.2, |_| ());
     let car = stage.frame().props[chassis];
     eprintln!("straight: {} {}", car.centre, car.velocity);
-    assert!(car.velocity.z > 2.5 && car.centre.x.abs() < 0.1, "{} {}", car.centre, car.velocity);
+    assert!(car.velocity.z > 2.5 && car.centre.x.abs() < 0.2, "{} {}", car.centre, car.velocity);
     let mut sway: f64 = 0.0;
     until(&mut stage, 4.6, |stage| {
         let now = own(stage).x - before.x;
@@ -30,11 +30,11 @@ fn the_car_drives_turns_and_brakes_and_its_driver_sways_outward() {
     eprintln!("heading {heading}, sway {sway}");
     // To the left, +x: by more than 40°; the driver's head goes to the right.
     assert!(heading.x > 0.64, "{heading}");
-    assert!(sway < -0.01, "{sway}");
+    assert!(sway < -0.03, "{sway}");
     until(&mut stage, 7.5, |stage| {
         let car = &stage.frame().props[chassis];
         let hips = car.rotation.conjugate() * (centre(stage, "driver", Node::Hips) - car.position);
-        assert!((hips - DVec3::new(0.0, 0.5, -0.25)).length() < 0.3, "{hips}");
+        assert!((hips - DVec3::new(0.0, 0.69, -0.25)).length() < 0.1, "{hips}");
         assert!((car.rotation * DVec3::Y).y > 0.97);
     });
     let speed = stage.frame().props[chassis].velocity.length();

@@ -21,7 +21,7 @@ fn the_giant_lifts_the_person_off_the_ground_and_holds_on() {
     });
     eprintln!("lowest {lowest}, farthest {farthest}, {sideways:?}");
     assert!(lowest > 0.4, "{lowest} m over the ground");
-    assert!(farthest < 0.5, "{farthest} m from the hands");
+    assert!(farthest < 0.8, "{farthest} m from the hands");
     // And swings the catch from one side to the other.
     assert!(sideways.1 - sideways.0 > 0.4, "{sideways:?}");
     assert!(centre(&stage, "giant", Node::Head).y > 2.5);
@@ -42,5 +42,5 @@ fn without_the_strength_of_a_giant_the_catch_is_held_lower() {
     };
     let (giant, usual) = (height("giant"), height("default"));
     eprintln!("giant {giant}, usual {usual}");
-    assert!(giant > usual + 0.02, "{giant} and {usual} m");
+    assert!(giant > usual + 0.1, "{giant} and {usual} m");
 }
