@@ -1,5 +1,5 @@
 //! How well the tracker `kd` follows captured motion, for each preset and clip, with and without feed-forward:
-//! `SINEW_SHARED=... cargo run -p sinew-control --example kd_table`. Add `default` for that preset alone, `absolute` for the damping
+//! `SINEW_SHARED=... cargo run -p sinew-control --example kd_table`. Add `default` for that preset alone, `02_01` for that clip, `absolute` for the damping
 //! as the paper prints it.
 
 #[path = "../tests/performer/mod.rs"]
@@ -15,12 +15,16 @@ fn main() {
         if arguments.iter().any(|word| word == "absolute") { KdDamping::Absolute } else { KdDamping::Relative };
     let only: Vec<KdPreset> =
         KdPreset::ALL.into_iter().filter(|preset| arguments.iter().any(|word| word == preset.name())).collect();
+    let clips: Vec<&String> = arguments.iter().filter(|word| word.contains('_')).collect();
     let presets = if only.is_empty() { KdPreset::ALL.to_vec() } else { only };
     println!(
         "{:8} {:4} {:32} joints deg  root cm  centres cm  lag ms  skate cm/s (own)  sunk cm  tilt deg",
         "preset", "fed", "clip"
     );
     for clip in WALKS.iter().chain(&RUNS).chain(&BOXING).chain(&BASKETBALL) {
+        if clips.iter().any(|_| !clips.iter().any(|part| clip.contains(part.as_str()))) {
+            continue;
+        }
         let performer = Performer::read(&folder.join(clip));
         let name = clip.rsplit('/').next().unwrap_or(clip);
         // A balloon holds nobody up.

@@ -60,7 +60,8 @@ pub enum Action {
     Attach {
         /// The part or alias.
         link: String,
-        /// What is held.
+        /// What is held; the nearest thing within reach of the part when left out.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
         object: String,
         /// A spring instead of a rigid joint.
         #[serde(default)]
@@ -73,7 +74,8 @@ pub enum Action {
     Detach {
         /// The part or alias.
         link: String,
-        /// What was held.
+        /// What was held; everything when left out.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
         object: String,
     },
     /// A force on a part, or on an object when `character` is `None`.

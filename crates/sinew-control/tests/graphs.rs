@@ -48,6 +48,7 @@ fn character(hips: DVec3, facing_rad: f64) -> CharacterFrame {
         centre_velocity: DVec3::ZERO,
         facing: locals[0] * DVec3::Z,
         support: Vec::new(),
+        spent: CharacterFrame::EMPTY.spent,
         was_reset: false,
     }
 }

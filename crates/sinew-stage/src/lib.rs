@@ -10,6 +10,7 @@ mod event;
 mod fade;
 mod motion_source;
 mod obey;
+mod obey_grasp;
 mod obey_kd;
 mod obey_stage;
 mod performance;

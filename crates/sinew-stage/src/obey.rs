@@ -7,9 +7,8 @@ use crate::span::{Ending, LastingPush, MOST_PUSHES};
 use crate::stage::step_of;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
-use sinew_control::graph::Touchable;
 use sinew_control::{Action, Command};
-use sinew_world::{Entity, Held, PartShape};
+use sinew_world::{Entity, PartShape};
 
 impl Stage {
     /// Does what a command says and notes it. A command that makes no sense here (an unknown name, a number that is not
@@ -80,25 +79,7 @@ impl Stage {
                 self.actors[character].stop_reaching(limb);
                 format!("{who} reaches no longer")
             }
-            Action::Attach { link, object, soft, break_n } => {
-                let node = self.part(character, link)?;
-                let object_entity = self.thing(object, character)?;
-                if self.world.is_attached(character, node, object_entity) {
-                    return Ok(None);
-                }
-                let break_force_n = break_n.map(|force| number(force, "break_n")).transpose()?;
-                self.world.attach(Held { character, node, object: object_entity, soft: *soft, break_force_n });
-                format!("{who}'s {} holds {object}", node.part())
-            }
-            Action::Detach { link, object } => {
-                let node = self.part(character, link)?;
-                let object_entity = self.thing(object, character)?;
-                if !self.world.is_attached(character, node, object_entity) {
-                    return Ok(None);
-                }
-                self.world.detach(character, node, object_entity);
-                format!("{who}'s {} lets go of {object}", node.part())
-            }
+            Action::Attach { .. } | Action::Detach { .. } => return self.obey_grasp(character, action),
             Action::Push { on, force_n, for_secs, facing, at_m } => {
                 let node = self.part(character, on)?;
                 let mut force = vector(*force_n, "force_n")?;
@@ -317,7 +298,7 @@ impl Stage {
         Ok(Some(self.world.frame().step.saturating_add(steps)))
     }
 
-    fn part(&self, character: usize, name: &str) -> Result<Node, String> {
+    pub(crate) fn part(&self, character: usize, name: &str) -> Result<Node, String> {
         self.cast.part(character, name).ok_or_else(|| {
             let aliases: Vec<&str> = self.cast.aliases(character).map(|(alias, _)| alias.as_str()).collect();
             let known = Node::ALL.map(|node| node.part().name()).join(", ");
@@ -339,20 +320,6 @@ impl Stage {
             let known: Vec<&str> = self.scene.shapes.keys().map(String::as_str).collect();
             format!("no shape `{name}`; there are own, none, {}", known.join(", "))
         })
-    }
-
-    /// One thing that can be held.
-    fn thing(&self, name: &str, own: usize) -> Result<Entity, String> {
-        match self.cast.meaning(name, Some(own)) {
-            Some(Touchable::One(Entity::Part(owner, _))) if owner == own => {
-                Err(format!("`{name}` is a part of its own"))
-            }
-            Some(Touchable::One(entity)) => Ok(entity),
-            Some(Touchable::Character(_)) => {
-                Err(format!("`{name}` is a whole character; name a part, `{name}.leftHand`"))
-            }
-            None => self.prop(name).map(Entity::Prop),
-        }
     }
 
     /// The point that is to arrive when a part reaches, in the part's frame \[m\]: the centre of what it holds, else its own.

@@ -268,6 +268,7 @@ impl Stage {
 impl Stage {
     /// Joints that broke in the last step; those that were cut are noted by the command.
     fn note_breaks(&mut self) {
+        self.note_broken_holds();
         for joint in 0..self.cast.joints().len() {
             if !self.world.prop_joint(joint).is_whole && self.broken.insert(joint) {
                 let name = self.cast.joints()[joint].clone();

@@ -144,7 +144,12 @@ impl Stage {
         let actor = &mut self.actors[index];
         match actor.tracker {
             TrackerKind::Kinematic => (0..Node::COUNT).for_each(|at| self.world.set_forces(index, Node::ALL[at], true)),
-            TrackerKind::Response | TrackerKind::Kd => self.world.set_limp(index),
+            TrackerKind::Response => self.world.set_limp(index),
+            TrackerKind::Kd => {
+                if let Some(tracker) = &actor.kd {
+                    tracker.release(&mut self.world, index);
+                }
+            }
             TrackerKind::Pd | TrackerKind::None => {}
         }
         actor.kinematic = (kind == TrackerKind::Kinematic).then(|| KinematicTracker::new(frame_secs, &now));

@@ -26,6 +26,9 @@ pub(crate) struct Attachment {
     joint: ImpulseJointHandle,
 }
 
+/// A hand goes around what has its centre no farther from its own than this \[m\].
+const AROUND_M: f64 = 0.3;
+
 /// Frequency \[Hz\] and damping ratio of a soft hold.
 const SOFT: (f64, f64) = (4.0, 0.7);
 
@@ -41,9 +44,18 @@ impl World {
             return;
         };
         let (Some(a), Some(b)) = (self.engine.bodies.get(one), self.engine.bodies.get(other)) else { return };
-        let (a_at, b_at, mass) = (*a.position(), *b.position(), b.mass());
-        // Of the held thing's centre, so that a spring has no lever on it.
-        let anchor = Pose::from_parts(b.center_of_mass(), a_at.rotation);
+        let (a_at, b_at) = (*a.position(), *b.position());
+        // A spring has no lever on what a hand goes around; what is larger, or cannot be moved, is held where the hand is.
+        let is_small = b.is_dynamic() && (b.center_of_mass() - a.center_of_mass()).length() < AROUND_M;
+        let centre = if is_small || !held.soft { b.center_of_mass() } else { a.center_of_mass() };
+        let anchor = Pose::from_parts(centre, a_at.rotation);
+        // What hangs on a spring sags alike, whatever it weighs: a part with all of its character, and what cannot be moved with
+        // the one who holds it.
+        let mass = match held.object {
+            Entity::Part(owner, _) => self.mass_kg(owner),
+            _ if b.is_dynamic() => b.mass(),
+            _ => self.mass_kg(held.character),
+        };
         let mut joint = if held.soft {
             let mut spring = GenericJointBuilder::new(JointAxesMask::empty()).build();
             let omega = std::f64::consts::TAU * SOFT.0;
@@ -93,23 +105,47 @@ impl World {
         }
     }
 
+    /// Holds that broke in the last step, with the force that was too much \[N\].
+    pub fn broken_holds(&self) -> &[(Held, f64)] {
+        &self.broken_holds
+    }
+
+    fn mass_kg(&self, character: usize) -> f64 {
+        self.characters.get(character).map_or(0.0, |one| one.body().mass_kg())
+    }
+
+    /// Impulse of a hold on the part that holds, in the last sub-step \[N s\], world.
+    pub(crate) fn attachment_impulse(&self, attachment: &Attachment) -> DVec3 {
+        let Some(joint) = self.engine.joints.get(attachment.joint) else { return DVec3::ZERO };
+        if !attachment.held.soft {
+            return joint_impulse(joint, &self.engine.bodies);
+        }
+        let bodies = &self.engine.bodies;
+        let (Some(one), Some(other)) = (bodies.get(joint.body1()), bodies.get(joint.body2())) else {
+            return DVec3::ZERO;
+        };
+        // By its law at the end of the step: what the solver reports of its three rows is not along their axes.
+        let place = |body: &RigidBody, frame: &Pose| body.position().transform_point(frame.translation);
+        let (here, there) = (place(one, &joint.data.local_frame1), place(other, &joint.data.local_frame2));
+        let slip = other.velocity_at_point(there) - one.velocity_at_point(here);
+        let spring = &joint.data.motors[0];
+        let sub_step_secs = self.settings.step_secs() / self.engine.parameters.num_solver_iterations as f64;
+        ((there - here) * spring.stiffness + slip * spring.damping) * sub_step_secs
+    }
+
     pub(crate) fn break_attachments(&mut self) {
-        let step_secs = self.settings.step_secs() / self.engine.parameters.num_solver_iterations as f64;
-        let (joints, bodies) = (&mut self.engine.joints, &self.engine.bodies);
-        self.attachments.retain(|attachment| {
-            let Some(limit) = attachment.held.break_force_n else { return true };
-            let Some(joint) = joints.get(attachment.joint) else { return true };
-            let impulse = if attachment.held.soft {
-                let motors = &joint.data.motors;
-                DVec3::new(motors[0].impulse, motors[1].impulse, motors[2].impulse).length()
+        let sub_step_secs = self.settings.step_secs() / self.engine.parameters.num_solver_iterations as f64;
+        self.broken_holds.clear();
+        let mut at = 0;
+        while let Some(attachment) = self.attachments.get(at) {
+            let force_n = self.attachment_impulse(attachment).length() / sub_step_secs;
+            if attachment.held.break_force_n.is_some_and(|limit| force_n > limit) {
+                let attachment = self.attachments.remove(at);
+                self.engine.joints.remove(attachment.joint, true);
+                self.broken_holds.push((attachment.held, force_n));
             } else {
-                joint_impulse(joint, bodies).length()
-            };
-            let stays = impulse / step_secs <= limit;
-            if !stays {
-                joints.remove(attachment.joint, true);
+                at += 1;
             }
-            stays
-        });
+        }
     }
 }

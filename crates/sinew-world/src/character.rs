@@ -1,6 +1,7 @@
 //! A character in the world: its bodies, joints, and what holds them.
 
 use crate::borne::Borne;
+use crate::effort::Before;
 use crate::engine::Engine;
 use crate::extra_shape::ExtraShape;
 use crate::joint::{LimitSpring, Start, write_ball, write_hinge};
@@ -41,6 +42,10 @@ pub(crate) struct Character {
     /// What each joint's parent feels at the start of a step.
     pub borne: [Borne; Node::COUNT],
     pub extra_shapes: Vec<ExtraShape>,
+    /// Forces of pushes in the next step, and in the last one \[N\].
+    pub pushes: [[DVec3; Node::COUNT]; 2],
+    /// For the meter.
+    pub before: [Before; Node::COUNT],
     limit_spring: LimitSpring,
     stays_awake: bool,
 }
@@ -68,6 +73,8 @@ impl Character {
             planes: Vec::new(),
             borne: [Borne::default(); Node::COUNT],
             extra_shapes: Vec::new(),
+            pushes: [[DVec3::ZERO; Node::COUNT]; 2],
+            before: [Before::default(); Node::COUNT],
             limit_spring,
             stays_awake: false,
         }
@@ -80,6 +87,7 @@ impl Character {
     /// Hands springs, limits and pins to the solver.
     pub fn prepare(&mut self, engine: &mut Engine, step_secs: f64) {
         if self.is_asleep(engine) {
+            self.before = [Before::default(); Node::COUNT];
             return;
         }
         let mut loads = [Load::default(); Node::COUNT];
@@ -145,9 +153,11 @@ impl Character {
         loads[node.index()].add(-borne.force, place, drive.torque - borne.torque);
     }
 
-    fn prepare_body(&self, engine: &mut Engine, node: Node, step_secs: f64, load: &Load) {
+    fn prepare_body(&mut self, engine: &mut Engine, node: Node, step_secs: f64, load: &Load) {
         let gravity = engine.gravity * self.gravity_scales[node.index()];
         let Some(body) = engine.bodies.get_mut(self.bodies[node.index()]) else { return };
+        let before = &mut self.before[node.index()];
+        *before = Before { velocity: body.linvel(), spin: body.angvel(), ..Before::default() };
         body.add_force(load.force, false);
         body.add_torque(load.moment - body.center_of_mass().cross(load.force), false);
         match (self.holds[node.index()], self.pins[node.index()]) {
@@ -157,7 +167,8 @@ impl Character {
                 body.set_angvel(body.angvel() * kept, true);
             }
             (Hold::Free, Some(pin)) => {
-                let (force, torque) = pin_force(body, part_inertia(self.body(), node), &pin, step_secs, gravity);
+                let (force, torque) = pin_force(body, part_inertia(&self.spec.body, node), &pin, step_secs, gravity);
+                (before.pin_force, before.pin_torque) = (force, torque);
                 body.add_force(force, true);
                 body.add_torque(torque, true);
             }

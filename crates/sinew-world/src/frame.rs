@@ -1,5 +1,6 @@
 //! What is known of a world after a step: all that controllers sense, sinks write and clients are sent.
 
+use crate::{Spent, margin};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose};
 
@@ -57,6 +58,8 @@ pub struct CharacterFrame {
     pub facing: DVec3,
     /// Corners of the support polygon on the ground, counter-clockwise seen from above; empty in the air \[m\].
     pub support: Vec<DVec3>,
+    /// What pins, and whatever else holds parts from outside, spent in this step; by [`Node::index`].
+    pub spent: [Spent; Node::COUNT],
     /// The body went wrong in this step and was put back.
     pub was_reset: bool,
 }
@@ -106,6 +109,11 @@ impl CharacterFrame {
     /// The pose of all parts.
     pub fn pose(&self) -> Pose {
         Pose { hips_position: self.parts[0].position, world: self.parts.map(|part| part.rotation) }
+    }
+
+    /// How far the centre of mass lies inside the support polygon, seen from above \[m\]; negative outside, `None` in the air.
+    pub fn support_margin_m(&self) -> Option<f64> {
+        Some(margin(&self.support, self.centre_of_mass)).filter(|margin| margin.is_finite())
     }
 
     /// Horizontal unit vector to the character's left.

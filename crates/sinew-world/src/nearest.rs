@@ -1,7 +1,9 @@
 //! How near a point is to a prop.
 
-use crate::World;
+use crate::{Entity, World};
 use glam::DVec3;
+use rapier3d_f64::prelude::RigidBodyHandle;
+use sinew_body::humanoid::Node;
 
 /// The point of a prop's surface that is nearest to a point of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +19,28 @@ pub struct Nearest {
 impl World {
     /// The place of a prop's surface that is nearest to a point; `None` when there is no such prop or the point is not finite.
     pub fn nearest_on_prop(&self, prop: usize, point: DVec3) -> Option<Nearest> {
-        let body = self.engine.bodies.get(self.props.get(prop)?.handle)?;
+        self.nearest_on(self.props.get(prop)?.handle, point)
+    }
+
+    /// The thing whose surface is nearest to a part's centre of mass and no farther from it than this \[m\]: a prop that is no
+    /// sensor, or another character's part.
+    pub fn nearest_to_part(&self, character: usize, node: Node, within_m: f64) -> Option<Entity> {
+        let centre = self.frame.characters.get(character)?.part(node).centre;
+        let props = self.props.iter().enumerate().filter(|(_, prop)| !prop.spec.is_sensor);
+        let props = props.map(|(index, prop)| (Entity::Prop(index), prop.handle));
+        let others = self.characters.iter().enumerate().filter(|(index, _)| *index != character);
+        let parts = others.flat_map(|(index, other)| {
+            Node::ALL.into_iter().zip(other.bodies).map(move |(part, handle)| (Entity::Part(index, part), handle))
+        });
+        let near = props.chain(parts).filter_map(|(thing, handle)| {
+            let nearest = self.nearest_on(handle, centre)?;
+            (nearest.distance_m <= within_m).then_some((thing, nearest.distance_m))
+        });
+        near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(thing, _)| thing)
+    }
+
+    fn nearest_on(&self, handle: RigidBodyHandle, point: DVec3) -> Option<Nearest> {
+        let body = self.engine.bodies.get(handle)?;
         let collider = self.engine.colliders.get(*body.colliders().first()?)?;
         if !point.is_finite() {
             return None;

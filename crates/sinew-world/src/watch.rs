@@ -4,7 +4,7 @@ use crate::engine::untag;
 use crate::frame::{BodyState, CharacterFrame, Contact, Entity};
 use crate::sound::is_place;
 use crate::support::keep_hull;
-use crate::{World, ragdoll};
+use crate::{Spent, World, ragdoll};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
@@ -43,6 +43,9 @@ impl World {
             self.look_at_prop(index);
         }
         self.look_at_contacts();
+        for index in 0..self.characters.len() {
+            self.meter(index);
+        }
     }
 
     pub(crate) fn look_at_character(&mut self, index: usize) {
@@ -259,6 +262,7 @@ impl CharacterFrame {
         centre_velocity: DVec3::ZERO,
         facing: DVec3::Z,
         support: Vec::new(),
+        spent: [Spent::NONE; Node::COUNT],
         was_reset: false,
     };
 }

@@ -6,7 +6,7 @@ use crate::engine::{Engine, tag};
 use crate::prop::Prop;
 use crate::prop_joint::PropJoint;
 use crate::watch::Watch;
-use crate::{CharacterSpec, Drive, Frame, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll, sound};
+use crate::{CharacterSpec, Drive, Frame, Held, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll, sound};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node};
@@ -38,6 +38,7 @@ pub struct World {
     pub(crate) characters: Vec<Character>,
     pub(crate) props: Vec<Prop>,
     pub(crate) attachments: Vec<Attachment>,
+    pub(crate) broken_holds: Vec<(Held, f64)>,
     pub(crate) prop_joints: Vec<PropJoint>,
     pub(crate) frame: Frame,
     pub(crate) watch: Watch,
@@ -53,6 +54,7 @@ impl World {
             characters: Vec::new(),
             props: Vec::new(),
             attachments: Vec::new(),
+            broken_holds: Vec::new(),
             prop_joints: Vec::new(),
             frame: Frame::default(),
             watch: Watch::default(),
@@ -78,6 +80,7 @@ impl World {
         let index = self.characters.len();
         let character = ragdoll::build(&mut self.engine, &spec, index)?;
         self.characters.push(character);
+        self.engine.passing.push([0; Node::COUNT]);
         self.look_at_new();
         Ok(index)
     }
@@ -149,6 +152,14 @@ impl World {
         character.hold_changed(&mut self.engine);
     }
 
+    /// Which of its own parts pass through each other instead of colliding: by [`Node::index`], a bit for each other part; pairs
+    /// are named from both sides.
+    pub fn set_passing(&mut self, character: usize, masks: [u32; Node::COUNT]) {
+        if let Some(passing) = self.engine.passing.get_mut(character) {
+            *passing = masks;
+        }
+    }
+
     /// Holds a part to a place in the world, or lets it go with `None`.
     pub fn set_pin(&mut self, character: usize, node: Node, pin: Option<Pin>) {
         let Some(character) = self.characters.get_mut(character) else { return };
@@ -188,10 +199,16 @@ impl World {
 
     /// A force on a part in the next step only \[N\], at a point of the world or at its centre of mass.
     pub fn push_part(&mut self, character: usize, node: Node, force: DVec3, point: Option<DVec3>) {
-        if let Some(character) = self.characters.get(character) {
+        if let Some(character) = self.characters.get_mut(character) {
             let handle = character.bodies[node.index()];
+            character.pushes[0][node.index()] += sound::force(force).unwrap_or(DVec3::ZERO);
             self.push_body(handle, force, point);
         }
+    }
+
+    /// Forces of [`World::push_part`] in the last step, all together on each part of a character \[N\]; by [`Node::index`].
+    pub fn pushes(&self, character: usize) -> Option<&[DVec3; Node::COUNT]> {
+        Some(&self.characters.get(character)?.pushes[1])
     }
 
     /// A force on a prop in the next step only \[N\], at a point of the world or at its centre of mass.
@@ -212,6 +229,9 @@ impl World {
     }
 
     fn forget_forces(&mut self) {
+        for character in &mut self.characters {
+            character.pushes = [[DVec3::ZERO; Node::COUNT], character.pushes[0]];
+        }
         let parts = self.characters.iter().flat_map(|character| character.bodies);
         let props = self.props.iter().map(|prop| prop.handle);
         for handle in parts.chain(props) {

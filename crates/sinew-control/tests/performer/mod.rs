@@ -71,9 +71,14 @@ pub struct Performer {
 impl Performer {
     /// The whole clip, by a person of 80 kg.
     pub fn read(path: &Path) -> Performer {
+        Performer::scaled(path, 80.0, None)
+    }
+
+    /// By a person of another mass \[kg\] and height \[m\].
+    pub fn scaled(path: &Path, mass_kg: f64, height_m: Option<f64>) -> Performer {
         let file = MotionFile::read(path, &ReadOptions::default()).expect("a clip");
         let humanoid = file.body_parts().expect("a body");
-        let person = Person { mass_kg: 80.0, height_m: None };
+        let person = Person { mass_kg, height_m };
         let reduction = Reduction::new(&file.clip, humanoid, file.stature_m, person).expect("proportions");
         // Many files begin with a pose that is not part of the motion.
         let first = moves_from(&file.clip, humanoid) as f64 * file.clip.frame_time_secs();
@@ -174,7 +179,7 @@ pub struct Following {
     /// How far the hips came down below the performer's \[m\], and the chest tilted from the performer's \[degrees\].
     pub sunk_m: f64,
     pub tilted_deg: f64,
-    /// Mean and largest force of all pins together \[N\].
+    /// Motion frames that were looked at.
     pub frames: usize,
 }
 
@@ -238,4 +243,76 @@ impl Following {
 fn feet(act: &Act) -> [DVec3; 2] {
     let parts = &act.world.frame().characters[0].parts;
     [Node::LeftFoot, Node::RightFoot].map(|node| parts[node.index()].centre)
+}
+
+/// A performer who stands at ease.
+pub fn standing(secs: f64) -> Performer {
+    let body = Body::standard(80.0, 1.7);
+    let mut pose = Pose::STANDING;
+    pose.hips_position.y = hips_over_soles_m(&body, &pose);
+    Performer { body, poses: vec![pose; (secs * HZ) as usize] }
+}
+
+/// What a hit does to a body, against the same performance without it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Hit {
+    /// How far the part that was hit goes at most \[m\].
+    pub own_m: f64,
+    /// How far the part of the upper body goes at most that goes farthest \[m\], and when, from the hit's beginning \[s\].
+    pub peak_m: f64,
+    pub peak_secs: f64,
+    /// When every part is back within 1 cm for good, from the hit's end \[s\].
+    pub back_secs: f64,
+    /// How far a foot goes at most, and the hips sink \[m\].
+    pub feet_m: f64,
+    pub sunk_m: f64,
+    /// What the pins did on top until then: the largest force and power, all parts together \[N, W\], and the work \[J\].
+    pub force_n: f64,
+    pub power_w: f64,
+    pub work_j: f64,
+}
+
+/// A hit lasts so long \[s\].
+pub const HIT_SECS: f64 = 0.1;
+
+impl Hit {
+    /// Of an impulse \[N s\] on a part's centre at a time.
+    pub fn of(performer: &Performer, settings: &KdSettings, node: Node, impulse: DVec3, at_secs: f64) -> Hit {
+        let mut acts = [Act::new(performer, settings.clone()), Act::new(performer, settings.clone())];
+        let step_secs = acts[0].world.settings().step_secs();
+        let steps = |secs: f64| (secs / step_secs).round() as usize;
+        let (begin, end) = (steps(at_secs), steps(at_secs + HIT_SECS));
+        let mut hit = Hit::default();
+        for step in 0..end + steps(4.0) {
+            if (begin..end).contains(&step) {
+                acts[0].world.push_part(0, node, impulse / HIT_SECS, None);
+            }
+            acts.iter_mut().for_each(Act::step);
+            if step < begin {
+                continue;
+            }
+            let [was_hit, was_not] = &acts;
+            let (a, b) = (&was_hit.world.frame().characters[0], &was_not.world.frame().characters[0]);
+            let off = |node: Node| (a.part(node).centre - b.part(node).centre).length();
+            hit.own_m = hit.own_m.max(off(node));
+            let farthest = Node::ALL.into_iter().filter(|node| !node.is_leg()).map(off).fold(0.0, f64::max);
+            if farthest > hit.peak_m {
+                (hit.peak_m, hit.peak_secs) = (farthest, (step - begin + 1) as f64 * step_secs);
+            }
+            if step >= end && Node::ALL.into_iter().any(|node| off(node) > 0.01) {
+                hit.back_secs = (step - end + 1) as f64 * step_secs;
+            }
+            hit.feet_m = hit.feet_m.max(off(Node::LeftFoot)).max(off(Node::RightFoot));
+            hit.sunk_m = hit.sunk_m.max(b.part(Node::Hips).position.y - a.part(Node::Hips).position.y);
+            let (mut force_n, mut power_w) = (0.0, 0.0);
+            for (hit, not) in a.spent.iter().zip(&b.spent) {
+                force_n += (hit.pin.force - not.pin.force).length();
+                power_w += hit.pin.power_w - not.pin.power_w;
+            }
+            hit.force_n = hit.force_n.max(force_n);
+            hit.power_w = hit.power_w.max(power_w.abs());
+            hit.work_j += power_w * step_secs;
+        }
+        hit
+    }
 }

@@ -127,8 +127,8 @@ pub(super) mod character {
         }
 
         #[pymethod]
-        fn detachLink(&self, link: PyUtf8StrRef, obj: PyUtf8StrRef, vm: &VirtualMachine) -> PyResult<()> {
-            drive::detach(vm, self.place, link.as_str(), obj.as_str())
+        fn detachLink(&self, let_go: drive::LetGo, vm: &VirtualMachine) -> PyResult<()> {
+            drive::detach(vm, self.place, let_go)
         }
 
         #[pymethod]

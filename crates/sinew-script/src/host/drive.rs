@@ -32,17 +32,26 @@ pub(super) struct OneLink {
     link: Option<PyUtf8StrRef>,
 }
 
-/// `(link, obj, soft=False, breakForce=None)`.
+/// `(link, obj=None, soft=False, breakForce=None)`.
 #[derive(FromArgs)]
 pub(super) struct Hold {
     #[pyarg(any)]
     link: PyUtf8StrRef,
-    #[pyarg(any)]
-    obj: PyUtf8StrRef,
+    #[pyarg(any, default)]
+    obj: Option<PyUtf8StrRef>,
     #[pyarg(any, default = false)]
     soft: bool,
     #[pyarg(any, name = "breakForce", default)]
     break_force: Option<PyObjectRef>,
+}
+
+/// `(link, obj=None)`.
+#[derive(FromArgs)]
+pub(super) struct LetGo {
+    #[pyarg(any)]
+    link: PyUtf8StrRef,
+    #[pyarg(any, default)]
+    obj: Option<PyUtf8StrRef>,
 }
 
 /// `(part, force, seconds, facing=False)`.
@@ -174,15 +183,20 @@ pub(super) fn attach(vm: &VirtualMachine, place: usize, hold: Hold) -> PyResult<
     }
     act(vm, place, |stage| {
         let link = stage.part_name(place, hold.link.as_str())?;
-        Ok(Action::Attach { link, object: holdable(stage, place, hold.obj.as_str())?, soft: hold.soft, break_n })
+        Ok(Action::Attach { link, object: some_holdable(stage, place, hold.obj)?, soft: hold.soft, break_n })
     })
 }
 
-pub(super) fn detach(vm: &VirtualMachine, place: usize, link: &str, object: &str) -> PyResult<()> {
+pub(super) fn detach(vm: &VirtualMachine, place: usize, let_go: LetGo) -> PyResult<()> {
     act(vm, place, |stage| {
-        let link = stage.part_name(place, link)?;
-        Ok(Action::Detach { link, object: holdable(stage, place, object)? })
+        let link = stage.part_name(place, let_go.link.as_str())?;
+        Ok(Action::Detach { link, object: some_holdable(stage, place, let_go.obj)? })
     })
+}
+
+/// The name of what is held, empty for whatever is near.
+fn some_holdable(stage: &Stage, place: usize, name: Option<PyUtf8StrRef>) -> Result<String, String> {
+    name.map_or(Ok(String::new()), |name| holdable(stage, place, name.as_str()))
 }
 
 /// A prop, or another character's part as `character.part`.

@@ -72,12 +72,14 @@ impl SceneSpec {
             A::IkRelease { link } => some_part(link),
             A::Attach { link, object, break_n, .. } => {
                 part(link)?;
-                self.holdable(object)?;
+                if !object.is_empty() {
+                    self.holdable(object)?;
+                }
                 within("break_n", break_n.unwrap_or(1.0), 1e-6..=1e9)
             }
             A::Detach { link, object } => {
                 part(link)?;
-                self.holdable(object)
+                if object.is_empty() { Ok(()) } else { self.holdable(object) }
             }
             A::Push { on, force_n, for_secs, facing, at_m } => {
                 match command.character {

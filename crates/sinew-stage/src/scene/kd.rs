@@ -27,6 +27,8 @@ pub struct KdSpec {
     pub damping: KdDamping,
     /// Give the forces that the performer's motion itself needs.
     pub feed_forward: bool,
+    /// The trunk gives way to hits; loads are held as ever.
+    pub yields: bool,
     /// How far single parts are held, by part or alias.
     pub weights: BTreeMap<String, WeightSpec>,
     /// A prop that carries the performer's whole stage along, such as a car.
@@ -53,6 +55,7 @@ impl Default for KdSpec {
             d_q: None,
             damping: KdDamping::Relative,
             feed_forward: true,
+            yields: true,
             weights: BTreeMap::new(),
             stands_on: None,
         }
@@ -72,6 +75,7 @@ impl KdSpec {
             gains: self.gains(),
             damping: self.damping,
             feed_forward: self.feed_forward,
+            yields: self.yields,
             ..KdSettings::default()
         };
         for (part, weight) in &self.weights {

@@ -5,6 +5,7 @@ mod draw;
 mod export;
 mod job;
 mod report;
+mod spent;
 
 pub use actors::{ActorReport, LatencyReport};
 pub use draw::{figure, sheet};
@@ -13,3 +14,4 @@ pub use export::{body_shapes, character_clip, csv, scene_clip};
 pub(crate) use job::{MOST_SECS, TRACE_STEPS};
 pub use job::{Ran, RunError, RunJob, replay, run};
 pub use report::RunReport;
+pub use spent::SpentReport;

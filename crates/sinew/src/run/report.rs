@@ -1,10 +1,11 @@
 //! What happened in a run, in numbers.
 
 use super::actors::{self, ActorReport};
+use super::spent::{Meter, SpentReport};
 use serde::Serialize;
 use sinew_live::Performers;
 use sinew_stage::{Event, Stage};
-use sinew_world::{Entity, margin};
+use sinew_world::Entity;
 use std::collections::BTreeMap;
 
 /// The report of `sinew run` and `sinew replay`. Keys carry their units.
@@ -48,6 +49,12 @@ pub struct CharacterReport {
     pub hit_impulse_max_n_s: f64,
     /// Times that it was put back because its body went wrong.
     pub resets: u64,
+    /// What pins spent, by part, and all together under `all`; the weight that they carry included.
+    pub pins: BTreeMap<String, SpentReport>,
+    /// What else held parts from outside: physics switched off, planes, holds on what does not move.
+    pub held: BTreeMap<String, SpentReport>,
+    #[serde(skip)]
+    meters: [Meter; 2],
     #[serde(skip)]
     in_the_air: [u64; 2],
 }
@@ -84,6 +91,9 @@ impl RunReport {
             let seen = &frame.characters[index];
             character.hips_height_min_m = character.hips_height_min_m.min(seen.parts[0].position.y);
             character.resets += u64::from(seen.was_reset);
+            let step_secs = stage.world().settings().step_secs();
+            character.meters[0].watch(seen, step_secs, |spent| spent.pin);
+            character.meters[1].watch(seen, step_secs, |spent| spent.held);
             let is_own = |entity: Entity| matches!(entity, Entity::Part(owner, _) if owner == index);
             for contact in &frame.contacts {
                 if is_own(contact.a) != is_own(contact.b) && contact.a != Entity::Floor {
@@ -119,8 +129,9 @@ impl RunReport {
             let seen = &frame.characters[index];
             character.hips_height_end_m = seen.parts[0].position.y;
             character.centre_end_m = seen.centre_of_mass.into();
-            let inside = margin(&seen.support, seen.centre_of_mass);
-            character.com_margin_end_m = inside.is_finite().then_some(inside);
+            character.com_margin_end_m = seen.support_margin_m();
+            character.pins = character.meters[0].report();
+            character.held = character.meters[1].report();
         }
     }
 }

@@ -10,6 +10,8 @@
 //! and a disturbed one is no stiffer than its gains.
 
 mod carrier;
+mod giving;
+mod passing;
 mod ramp;
 mod settings;
 mod slide;
@@ -20,7 +22,9 @@ use super::clock::Clock;
 use super::glide::Glide;
 use super::instant::Instant;
 use carrier::{Carried, Carrier};
+use giving::Giving;
 use glam::{DMat3, DVec3};
+use passing::Passing;
 use ramp::Ramp;
 use sinew_body::humanoid::{Body, Node, Pose, log};
 use sinew_world::{Drive, Pin, World};
@@ -71,7 +75,6 @@ pub struct KdTracker {
     pins: Ramp,
     pin_weights: [Ramp; Node::COUNT],
     joint_weights: [Ramp; Node::COUNT],
-    inertias: [DVec3; Node::COUNT],
     largest_n: [f64; Node::COUNT],
     clock: Clock,
     glide: Glide,
@@ -85,6 +88,8 @@ pub struct KdTracker {
     slide: Option<Slide>,
     start: Start,
     carrier: Option<Carrier>,
+    passing: Passing,
+    giving: Giving,
 }
 
 /// What the next motion frame begins with.
@@ -128,7 +133,6 @@ impl KdTracker {
             pin_weights: settings.weights.map(|weight| Ramp::at(weight.pin)),
             joint_weights: settings.weights.map(|weight| Ramp::at(weight.joint)),
             settings,
-            inertias: Node::ALL.map(|node| body.link(node).inertia),
             largest_n: Node::ALL.map(most),
             clock: Clock::new(time_step_secs),
             glide: Glide::rest(first),
@@ -141,6 +145,8 @@ impl KdTracker {
             slide: None,
             start: Start::No,
             carrier: None,
+            passing: Passing::new(body),
+            giving: Giving::default(),
         }
     }
 
@@ -204,6 +210,11 @@ impl KdTracker {
         self.settings.feed_forward = on;
     }
 
+    /// Whether the trunk gives way to hits.
+    pub fn set_yields(&mut self, on: bool) {
+        self.settings.yields = on;
+    }
+
     /// Other weights of a part, reached smoothly within a time \[s\]; `None` leaves one as it is.
     pub fn set_weight(&mut self, node: Node, pin: Option<f64>, joint: Option<f64>, fade_secs: f64) {
         let weight = &mut self.settings.weights[node.index()];
@@ -248,18 +259,22 @@ impl KdTracker {
     /// Sets pins and drives of a character for the world's next step.
     pub fn physics_step(&mut self, world: &mut World, character: usize) {
         let step_secs = world.settings().step_secs();
-        if self.clock.is_due() {
+        let begins = self.clock.is_due();
+        if begins {
             self.clock.begin_frame();
-            self.begin_frame();
+            let Some(body) = world.body(character) else { return };
+            self.begin_frame(body);
         }
         let raw = self.glide.at(self.clock.advance(step_secs));
         if let Start::FromBody(secs) = std::mem::replace(&mut self.start, Start::No) {
             self.slide_from_body(world, character, secs, step_secs);
         }
         let mut posed = raw;
+        let Some(body) = world.body(character) else { return };
+        let mut progress = 1.0;
         if let Some(slide) = &mut self.slide {
-            slide.advance(step_secs);
-            posed = slide.added_to(&raw);
+            posed = slide.step(body, &raw, step_secs);
+            progress = slide.progress();
             if slide.is_over() {
                 self.slide = None;
             }
@@ -272,18 +287,22 @@ impl KdTracker {
         for ramp in self.pin_weights.iter_mut().chain(&mut self.joint_weights) {
             ramp.advance(step_secs);
         }
-        let Some(body) = world.body(character) else { return };
         let next = Instant::of(body, &posed);
-        self.hold(world, character, &next, step_secs);
+        if begins && let Some(frame) = world.frame().characters.get(character) {
+            let masks = self.passing.look(&next, frame);
+            world.set_passing(character, masks);
+        }
+        self.feel(world, character, step_secs);
+        self.hold(world, character, &next, progress, step_secs);
         self.before = self.now;
         self.now = next;
     }
 
-    fn begin_frame(&mut self) {
+    fn begin_frame(&mut self, body: &Body) {
         let pose = self.wanted;
         if has_jumped(self.glide.end(), &pose) {
             let velocity = self.raw_velocity;
-            self.slide = Some(Slide::between(&self.posed, &pose, velocity, JUMP_SECS));
+            self.slide = Some(Slide::between(body, &self.posed, &pose, velocity, JUMP_SECS));
             self.glide = Glide::rest(&pose);
             (self.raw, self.raw_velocity) = (pose, DVec3::ZERO);
         }
@@ -300,17 +319,26 @@ impl KdTracker {
             pose.hips_position = carried.place_back(pose.hips_position);
             pose.world = pose.world.map(|rotation| carried.rotation_back(rotation));
         }
-        self.slide = Some(Slide::between(&pose, &self.raw, velocity - self.raw_velocity, over_secs));
-        if let Some(body) = world.body(character) {
-            self.now = Instant::of(body, &pose);
-            // It was where its velocity says: no force is fed forward to bring it up to the speed that it has.
-            let mut before = pose;
-            before.hips_position -= velocity * step_secs;
-            self.before = Instant::of(body, &before);
+        let Some(body) = world.body(character) else { return };
+        self.slide = Some(Slide::between(body, &pose, &self.raw, velocity - self.raw_velocity, over_secs));
+        self.now = Instant::of(body, &pose);
+        // It was where its velocity says: no force is fed forward to bring it up to the speed that it has.
+        let mut before = pose;
+        before.hips_position -= velocity * step_secs;
+        self.before = Instant::of(body, &before);
+    }
+
+    /// Whether something hit the trunk.
+    fn feel(&mut self, world: &World, character: usize, step_secs: f64) {
+        let is_held = self.pins.value() * self.carries.value() >= 1.0;
+        match world.body(character).filter(|_| self.settings.yields && is_held) {
+            Some(body) => self.giving.feel(world, character, body.mass_kg(), step_secs),
+            None => self.giving.forget(),
         }
     }
 
-    fn hold(&self, world: &mut World, character: usize, next: &Instant, step_secs: f64) {
+    /// `progress` of a slide: legs are firmer than the rest when they stand, not while they come there.
+    fn hold(&self, world: &mut World, character: usize, next: &Instant, progress: f64, step_secs: f64) {
         let Some(outboard) = world.outboard_inertias(character).copied() else { return };
         let carried = self.carrier.and_then(|carrier| carrier.now(world));
         let [k_p, d_p, k_q, d_q] = self.gains.map(|gain| gain.value());
@@ -327,7 +355,8 @@ impl KdTracker {
             spins[at] = spin;
             if self.settings.feed_forward {
                 let rotation = DMat3::from_quat(self.now.rotations[at]);
-                let inertia = rotation * DMat3::from_diagonal(self.inertias[at]) * rotation.transpose();
+                let inertia = DMat3::from_diagonal(world.part_inertia(character, node));
+                let inertia = rotation * inertia * rotation.transpose();
                 torques[at] += inertia * turning + spin.cross(inertia * spin);
                 if let Some(parent) = node.parent() {
                     let own = torques[at];
@@ -338,8 +367,10 @@ impl KdTracker {
         for node in Node::ALL {
             let at = node.index();
             let weight = pins * self.pin_weights[at].value();
-            let (stiffness, damping) =
-                (k_p * KdGains::multiple(node) * weight, d_p * (KdGains::multiple(node) * weight).max(0.0).sqrt());
+            let (given_pin, given_joint) = self.giving.factors(node);
+            let multiple = 1.0 + (KdGains::multiple(node) - 1.0) * progress;
+            let factor = multiple * weight * given_pin;
+            let (stiffness, damping) = (k_p * factor, d_p * factor.max(0.0).sqrt());
             let pin = (stiffness + damping > 0.0).then(|| {
                 let (behind, ahead) =
                     (self.now.centres[at] - self.before.centres[at], next.centres[at] - self.now.centres[at]);
@@ -374,6 +405,8 @@ impl KdTracker {
             world.set_pin(character, node, pin);
             let Some(parent) = node.parent().map(Node::index) else { continue };
             let weight = self.joint_weights[at].value() * self.joint_gain[at].max(0.0);
+            let fed = weight.min(1.0);
+            let weight = weight * given_joint;
             let (rotation, above) = (next.rotations[at], next.rotations[parent]);
             let velocity = rotation.conjugate() * (spins[at] - spins[parent]);
             let damping = (d_q * weight.sqrt()).max(LIMP_DAMPING);
@@ -385,7 +418,7 @@ impl KdTracker {
                     velocity: if is_relative { velocity } else { DVec3::ZERO },
                     stiffness: outboard[at] * k_q * weight,
                     damping: outboard[at] * damping,
-                    torque: self.torque[at] + turned(&carried, torques[at]) * weight.min(1.0),
+                    torque: self.torque[at] + turned(&carried, torques[at]) * fed,
                 },
             );
         }
@@ -409,6 +442,7 @@ impl KdTracker {
     /// Lets all parts go.
     pub fn release(&self, world: &mut World, character: usize) {
         world.set_limp(character);
+        world.set_passing(character, [0; Node::COUNT]);
     }
 }
 

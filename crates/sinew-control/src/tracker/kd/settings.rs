@@ -111,6 +111,8 @@ pub struct KdSettings {
     pub damping: KdDamping,
     /// The forces that the wanted motion itself needs are given on top, from its accelerations. Without them the body lags.
     pub feed_forward: bool,
+    /// The trunk gives way to hits (contacts and pushes), which the gains alone would hardly let it; loads are held as ever.
+    pub yields: bool,
     /// By [`Node::index`].
     pub weights: [KdWeight; Node::COUNT],
 }
@@ -122,6 +124,7 @@ impl KdSettings {
             gains: preset.gains(),
             damping: KdDamping::Relative,
             feed_forward: true,
+            yields: true,
             weights: [KdWeight::FULL; Node::COUNT],
         }
     }

@@ -1,0 +1,97 @@
+//! A trunk that gives way to hits, and not to loads.
+//!
+//! The paper's gains let a hit of 20 N s on the chest move it by little more than a centimetre: pins and the spring of the waist hold
+//! forty kilograms that move together. People brace themselves against what pulls and leans on them, and give way to what hits
+//! them. What tells the two apart here is the impulse of the last tenths of a second, less what has pushed for longer.
+
+use glam::DVec3;
+use sinew_body::humanoid::Node;
+use sinew_world::{Entity, Frame, World};
+
+/// Impulse at which the trunk begins to give way, and at which it gives way in full, for a body of 80 kg \[N s\].
+const FROM_TO_N_S: [f64; 2] = [3.0, 6.0];
+
+/// An impulse is forgotten within this time, and a force is no longer a hit but a load \[s\].
+const FORGOTTEN_SECS: f64 = 0.2;
+const LOAD_SECS: f64 = 0.3;
+
+/// What is left of the stiffness of a trunk that gives way in full \[1\].
+const LEAST: f64 = 0.02;
+
+/// The same of the hips' pin: legs hold the rest.
+const LEAST_OF_HIPS: f64 = 0.2;
+
+/// How fast it gives way, and comes back \[s\].
+const TIMES_SECS: [f64; 2] = [0.01, 0.3];
+
+/// How far the trunk gives way now.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Giving {
+    load: DVec3,
+    impulse: DVec3,
+    share: f64,
+}
+
+impl Giving {
+    /// Feels what pushed and touched the trunk in the world's last step.
+    pub(super) fn feel(&mut self, world: &World, character: usize, mass_kg: f64, step_secs: f64) {
+        let force = force_on_trunk(world, character, step_secs);
+        let force = if force.is_finite() { force } else { DVec3::ZERO };
+        self.impulse += (force - self.load) * step_secs;
+        self.impulse -= self.impulse * (step_secs / FORGOTTEN_SECS).min(1.0);
+        self.load += (force - self.load) * (step_secs / LOAD_SECS).min(1.0);
+        let [from, to] = FROM_TO_N_S.map(|impulse| impulse * mass_kg / 80.0);
+        let felt = ((self.impulse.length() - from) / (to - from)).clamp(0.0, 1.0);
+        let secs = TIMES_SECS[usize::from(felt < self.share)];
+        self.share += (felt - self.share) * (step_secs / secs).min(1.0);
+    }
+
+    /// Feels nothing any more.
+    pub(super) fn forget(&mut self) {
+        *self = Giving::default();
+    }
+
+    /// Factors on the stiffness of a part's pin and of its joint.
+    pub(super) fn factors(&self, node: Node) -> (f64, f64) {
+        let left = |least: f64| 1.0 - self.share * (1.0 - least);
+        let pin = match node {
+            Node::Hips => left(LEAST_OF_HIPS),
+            node if is_above_hips(node) => left(LEAST),
+            _ => 1.0,
+        };
+        (pin, if node == Node::Chest { left(LEAST) } else { 1.0 })
+    }
+}
+
+fn force_on_trunk(world: &World, character: usize, step_secs: f64) -> DVec3 {
+    let frame: &Frame = world.frame();
+    let pushes = world.pushes(character).map_or(DVec3::ZERO, |pushes| {
+        Node::ALL.into_iter().filter(|node| is_trunk(*node)).map(|node| pushes[node.index()]).sum()
+    });
+    let is_own = |entity: Entity| matches!(entity, Entity::Part(owner, _) if owner == character);
+    let counts = |entity: Entity| matches!(entity, Entity::Part(owner, node) if owner == character && is_trunk(node));
+    let mut impulse = DVec3::ZERO;
+    for contact in &frame.contacts {
+        let (other, sign) = if counts(contact.b) {
+            (contact.a, 1.0)
+        } else if counts(contact.a) {
+            (contact.b, -1.0)
+        } else {
+            continue;
+        };
+        let holds = || world.held().any(|held| held.character == character && held.object == other);
+        if !is_own(other) && !holds() {
+            impulse += contact.impulse * sign;
+        }
+    }
+    pushes + impulse / step_secs
+}
+
+/// Parts that a hit moves together with the trunk.
+fn is_trunk(node: Node) -> bool {
+    is_above_hips(node) && !matches!(node, Node::LeftLowerArm | Node::RightLowerArm | Node::LeftHand | Node::RightHand)
+}
+
+fn is_above_hips(node: Node) -> bool {
+    node != Node::Hips && !node.is_leg()
+}

@@ -1,0 +1,81 @@
+//! Commands that take hold of things and let them go.
+
+use crate::Stage;
+use crate::obey::number;
+use sinew_body::humanoid::Node;
+use sinew_control::Action;
+use sinew_control::graph::Touchable;
+use sinew_world::{Entity, Held};
+
+/// A hand takes hold of what its centre of mass is no farther from than this \[m\]: it lies in the open hand.
+const REACH_M: f64 = 0.15;
+
+impl Stage {
+    /// What was done, in words; `None` when it was so already.
+    pub(crate) fn obey_grasp(&mut self, character: usize, action: &Action) -> Result<Option<String>, String> {
+        let who = self.cast.characters()[character].clone();
+        match action {
+            Action::Attach { link, object, soft, break_n } => {
+                let node = self.part(character, link)?;
+                let thing = self.thing(object, character, node)?;
+                if self.world.is_attached(character, node, thing) {
+                    return Ok(None);
+                }
+                let break_force_n = break_n.map(|force| number(force, "break_n")).transpose()?;
+                self.world.attach(Held { character, node, object: thing, soft: *soft, break_force_n });
+                Ok(Some(format!("{who}'s {} holds {}", node.part(), self.cast.name_of(thing))))
+            }
+            Action::Detach { link, object } => {
+                let node = self.part(character, link)?;
+                let things: Vec<Entity> = if object.is_empty() {
+                    let held = self.world.held().filter(|held| held.character == character && held.node == node);
+                    held.map(|held| held.object).collect()
+                } else {
+                    let thing = self.thing(object, character, node)?;
+                    if self.world.is_attached(character, node, thing) { vec![thing] } else { Vec::new() }
+                };
+                for &thing in &things {
+                    self.world.detach(character, node, thing);
+                }
+                let names: Vec<String> = things.iter().map(|&thing| self.cast.name_of(thing)).collect();
+                let effect = format!("{who}'s {} lets go of {}", node.part(), names.join(", "));
+                Ok((!things.is_empty()).then_some(effect))
+            }
+            _ => Err("this is no command to a hand".to_owned()),
+        }
+    }
+
+    /// Holds that broke in the last step.
+    pub(crate) fn note_broken_holds(&mut self) {
+        for at in 0..self.world.broken_holds().len() {
+            let (held, force_n) = self.world.broken_holds()[at];
+            let part = self.cast.name_of(Entity::Part(held.character, held.node));
+            let thing = self.cast.name_of(held.object);
+            let most_n = held.break_force_n.unwrap_or(0.0);
+            self.note(
+                format!("{force_n:.0} N are more than {most_n:.0} N"),
+                format!("{part} loses its hold of {thing}"),
+            );
+        }
+    }
+
+    /// One thing that can be held; the nearest in reach when it has no name.
+    fn thing(&self, name: &str, own: usize, node: Node) -> Result<Entity, String> {
+        if name.is_empty() {
+            return self
+                .world
+                .nearest_to_part(own, node, REACH_M)
+                .ok_or_else(|| format!("nothing is within {REACH_M} m of the {}", node.part()));
+        }
+        match self.cast.meaning(name, Some(own)) {
+            Some(Touchable::One(Entity::Part(owner, _))) if owner == own => {
+                Err(format!("`{name}` is a part of its own"))
+            }
+            Some(Touchable::One(entity)) => Ok(entity),
+            Some(Touchable::Character(_)) => {
+                Err(format!("`{name}` is a whole character; name a part, `{name}.leftHand`"))
+            }
+            None => self.prop(name).map(Entity::Prop),
+        }
+    }
+}
