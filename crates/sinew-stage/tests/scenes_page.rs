@@ -78,7 +78,6 @@ fn the_defaults_that_the_page_shows_are_those_of_the_code() {
             colour: None,
             kd: usual.kd.clone(),
             response: usual.response.clone(),
-            kd: usual.kd.clone(),
             ..left.clone()
         },
         usual
