@@ -63,6 +63,7 @@ impl Stance {
 
 /// The strides to a stance, beginning with a foot, and the steps that they make. With a half step the last foot stays behind.
 /// Adds nothing when both feet stand there already. False when it is too far to be planned.
+#[allow(clippy::too_many_arguments, reason = "a walk is all of these")]
 pub(crate) fn walk(
     feet: &mut Feet,
     to: &Stance,

@@ -179,10 +179,10 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
         if spec.tracker != TrackerKind::Pd {
             stage.set_tracker(index, spec.tracker).map_err(wrong)?;
         }
-        if let Some(order) = spec.source.as_ref().and_then(|source| source.reach.as_ref()) {
-            if let Some(effect) = stage.begin_reach(index, order).map_err(wrong)? {
-                stage.note("the scene", format!("{name} {effect}"));
-            }
+        if let Some(order) = spec.source.as_ref().and_then(|source| source.reach.as_ref())
+            && let Some(effect) = stage.begin_reach(index, order).map_err(wrong)?
+        {
+            stage.note("the scene", format!("{name} {effect}"));
         }
         if let Some(controller) = &spec.controller {
             stage.start_controller(index, controller).map_err(wrong)?;

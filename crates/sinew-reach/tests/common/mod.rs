@@ -16,7 +16,7 @@ pub fn bodies() -> [Body; 2] {
 
 pub fn reacher(body: &Body, style: &Style) -> Reacher {
     let start = Start { pose: standing(body, DVec3::ZERO, 0.0), before: None };
-    Reacher::new(body, style, &start).unwrap()
+    Reacher::new(body, style, &start).expect("a style in range")
 }
 
 /// The hand that a person would use, as the command line chooses it.
@@ -30,7 +30,7 @@ pub fn goal(target: DVec3) -> Goal {
 
 /// A target all around a body: from its feet to over its head, up to beyond what one step brings in reach.
 pub fn any_target(dice: &mut Dice, stature_m: f64) -> DVec3 {
-    let (angle, away) = (dice.between(-3.14, 3.14), dice.between(0.2, 1.3));
+    let (angle, away) = (dice.between(-std::f64::consts::PI, std::f64::consts::PI), dice.between(0.2, 1.3));
     DVec3::new(angle.sin() * away, dice.between(-0.1, 1.45), angle.cos() * away) * stature_m
 }
 
