@@ -11,7 +11,6 @@ fn the_hand_moves_the_balloon_until_the_balloon_takes_the_weight_and_flies_off_w
     let start = prop_centre(&stage, "balloon");
     let mut lowest = start.y;
     until(&mut stage, 1.9, |stage| lowest = lowest.min(prop_centre(stage, "balloon").y));
-    eprintln!("pulled down by {}", start.y - lowest);
     // The hand goes down by 0.4 m and the balloon with it.
     assert!(start.y - lowest > 0.2, "{lowest} from {start}");
     assert!(lower_ankle_m(&stage, "flyer") < 0.12);
@@ -27,13 +26,11 @@ fn the_hand_moves_the_balloon_until_the_balloon_takes_the_weight_and_flies_off_w
         impulse / 0.5
     };
     let (late, later) = (mean(4.9), mean(5.6));
-    eprintln!("under the feet: {late} N, {later} N");
     // What the feet bear becomes less and less, and less than the weight of 785 N long before they leave the ground.
     assert!(late < 700.0 && later < late, "{late}, {later}");
 
     until(&mut stage, 8.0, |_| ());
     let ankle = lower_ankle_m(&stage, "flyer");
-    eprintln!("ankle {ankle}");
     assert!(ankle > 1.0, "the feet are {ankle} m up");
     let frame = character(&stage, "flyer");
     let (hand, hips) = (frame.part(Node::RightHand).centre, frame.part(Node::Hips).centre);

@@ -17,7 +17,6 @@ fn the_car_drives_turns_and_brakes_and_its_driver_sways_outward() {
     let before = own(&stage);
     until(&mut stage, 2.2, |_| ());
     let car = stage.frame().props[chassis];
-    eprintln!("straight: {} {}", car.centre, car.velocity);
     assert!(car.velocity.z > 2.5 && car.centre.x.abs() < 0.2, "{} {}", car.centre, car.velocity);
     let mut sway: f64 = 0.0;
     until(&mut stage, 4.6, |stage| {
@@ -27,7 +26,6 @@ fn the_car_drives_turns_and_brakes_and_its_driver_sways_outward() {
         }
     });
     let heading = stage.frame().props[chassis].rotation * DVec3::Z;
-    eprintln!("heading {heading}, sway {sway}");
     // To the left, +x: by more than 40°; the driver's head goes to the right.
     assert!(heading.x > 0.64, "{heading}");
     assert!(sway < -0.03, "{sway}");
@@ -38,7 +36,6 @@ fn the_car_drives_turns_and_brakes_and_its_driver_sways_outward() {
         assert!((car.rotation * DVec3::Y).y > 0.97);
     });
     let speed = stage.frame().props[chassis].velocity.length();
-    eprintln!("after braking {speed}");
     assert!(speed < 0.3, "{speed} m/s after braking");
 }
 
@@ -51,6 +48,5 @@ fn the_operators_keys_drive_it() {
     // Before the time line's own driving begins.
     until(&mut stage, 0.49, |_| ());
     let velocity = stage.frame().props[chassis].velocity;
-    eprintln!("{velocity}");
     assert!(velocity.z < -0.1, "{velocity}");
 }

@@ -19,7 +19,6 @@ fn the_giant_lifts_the_person_off_the_ground_and_holds_on() {
         sideways = (sideways.0.min(chest.x), sideways.1.max(chest.x));
         assert!(lower_ankle_m(stage, "giant") < 0.25);
     });
-    eprintln!("lowest {lowest}, farthest {farthest}, {sideways:?}");
     assert!(lowest > 0.4, "{lowest} m over the ground");
     assert!(farthest < 0.8, "{farthest} m from the hands");
     // And swings the catch from one side to the other.
@@ -41,6 +40,5 @@ fn without_the_strength_of_a_giant_the_catch_is_held_lower() {
         sum / count
     };
     let (giant, usual) = (height("giant"), height("default"));
-    eprintln!("giant {giant}, usual {usual}");
     assert!(giant > usual + 0.1, "{giant} and {usual} m");
 }

@@ -18,7 +18,6 @@ fn the_pilot_steers_through_every_gate_in_its_order_and_stays_on_the_glider() {
         off = off.max(DVec3::new(own.x, 0.0, own.z).length());
     });
     let times = [1, 2, 3, 4].map(|gate| when(&stage, &format!("gate {gate} is passed")));
-    eprintln!("{times:?}, lowest {lowest}, off {off}");
     assert!(times.is_sorted(), "{times:?}");
     assert!(lowest > 1.2, "{lowest}");
     assert!(off < 0.4, "{off} m from the middle of the deck");
@@ -36,7 +35,6 @@ fn the_level_of_the_feet_pitches_the_glider_and_its_force_drives_it_that_way() {
         ((deck.rotation * DVec3::Z).y, deck.velocity.z)
     };
     let (ahead, level, back) = (run("fly_ahead"), run("fly"), run("fly_brake"));
-    eprintln!("{ahead:?} {level:?} {back:?}");
     assert!(ahead.0 < -0.05 && ahead.1 > 0.2, "nose {} up, {} m/s", ahead.0, ahead.1);
     assert!(level.0.abs() < 0.03 && level.1.abs() < 0.3, "nose {} up, {} m/s", level.0, level.1);
     assert!(back.0 > 0.05 && back.1 < -0.5, "nose {} up, {} m/s", back.0, back.1);

@@ -36,7 +36,6 @@ fn motion(is_held: bool) -> Motion {
 #[test]
 fn the_performer_dampens_the_stapler_and_is_shaken_by_it() {
     let (held, free) = (motion(true), motion(false));
-    eprintln!("held {} {}, free {} {}", held.arm, held.chest, free.arm, free.chest);
     assert!(held.arm < 0.7 * free.arm, "the arm moves {} m held and {} m free", held.arm, free.arm);
     // Left alone it hops on.
     assert!(free.arm > 0.5, "{}", free.arm);

@@ -36,9 +36,6 @@ fn the_performer_hits_the_ball_again_and_again_and_it_flies_round_its_pole() {
         longest = longest.max((state.centre - top).length() - length);
         highest_ankle = highest_ankle.max(lower_ankle_m(stage, "player"));
     });
-    eprintln!(
-        "hits {hits} fastest {fastest} farthest {farthest} longest {longest} ankle {highest_ankle} rest {rest:?}"
-    );
     // Before it is hit it hangs at its pole; then it is struck away, comes back, and is struck again.
     assert!(rest.unwrap() < 0.5, "{rest:?}");
     assert!(hits >= 2, "{hits}");

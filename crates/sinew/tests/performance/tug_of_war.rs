@@ -28,7 +28,6 @@ fn who_pulls_draws_the_other_closer_at_once_and_both_keep_their_feet() {
             most = moved;
         }
     }
-    eprintln!("first after {first:?} s, most {most}");
     // The rope sags by a few centimetres before it is taut.
     assert!(first.unwrap() < 0.4, "{first:?}");
     // Towards blue, which stands at -z.
@@ -54,7 +53,6 @@ fn the_rope_is_one_rope() {
             gap = gap.max((end - begin).length());
         }
     });
-    eprintln!("gap {gap}");
     // A tenth of a piece.
     assert!(gap < 0.0125, "{gap} m between two pieces");
 }
