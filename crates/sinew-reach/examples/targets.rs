@@ -29,7 +29,7 @@ fn main() {
             slip = slip.max(one.slip_m);
             margin = margin.min(one.margin_m);
             let is_sound = one.finite
-                && one.excess_rad < 0.009
+                && one.excess_rad < 0.0175
                 && one.slip_m < 1e-3
                 && one.margin_m > 0.0
                 && (one.outcome.reason.is_some() || one.error_m < 1e-3)
