@@ -115,7 +115,7 @@ fn lands_ahead(start: &Start, body: &Body, foot: Node) -> DVec3 {
 const LANDS_SECS: f64 = 0.2;
 
 /// How long what is left of the start's pose takes to pass \[s\]: of a body at rest, and of one that moves.
-const SETTLES_SECS: (f64, f64) = (0.5, 0.7);
+const SETTLES_SECS: (f64, f64) = (0.5, 0.4);
 
 impl Reacher {
     /// Somebody in a pose, with the floor at height 0 below the lower sole of that pose.
