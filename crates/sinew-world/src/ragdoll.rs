@@ -159,7 +159,6 @@ pub(crate) fn part_collider(solid: &Solid, surface: Surface, character: usize, n
             .friction(surface.friction)
             .restitution(surface.bounce)
             .restitution_combine_rule(CoefficientCombineRule::Max)
-            .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS)
             .user_data(crate::engine::tag(Entity::Part(character, node)))
             .build(),
     )

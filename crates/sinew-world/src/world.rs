@@ -155,9 +155,20 @@ impl World {
     /// Which of its own parts pass through each other instead of colliding: by [`Node::index`], a bit for each other part; pairs
     /// are named from both sides.
     pub fn set_passing(&mut self, character: usize, masks: [u32; Node::COUNT]) {
-        if let Some(passing) = self.engine.passing.get_mut(character) {
-            *passing = masks;
+        let (Some(one), Some(passing)) = (self.characters.get(character), self.engine.passing.get_mut(character))
+        else {
+            return;
+        };
+        for at in 0..Node::COUNT {
+            // The library looks at every contact of a part that asks first anew in each step: only those ask that must.
+            if (passing[at] == 0) != (masks[at] == 0)
+                && let Some(collider) = self.engine.colliders.get_mut(one.colliders[at])
+            {
+                let asks = if masks[at] == 0 { ActiveHooks::empty() } else { ActiveHooks::FILTER_CONTACT_PAIRS };
+                collider.set_active_hooks(asks);
+            }
         }
+        *passing = masks;
     }
 
     /// Holds a part to a place in the world, or lets it go with `None`.
