@@ -120,17 +120,10 @@ impl World {
         if !attachment.held.soft {
             return joint_impulse(joint, &self.engine.bodies);
         }
-        let bodies = &self.engine.bodies;
-        let (Some(one), Some(other)) = (bodies.get(joint.body1()), bodies.get(joint.body2())) else {
-            return DVec3::ZERO;
-        };
-        // By its law at the end of the step: what the solver reports of its three rows is not along their axes.
-        let place = |body: &RigidBody, frame: &Pose| body.position().transform_point(frame.translation);
-        let (here, there) = (place(one, &joint.data.local_frame1), place(other, &joint.data.local_frame2));
-        let slip = other.velocity_at_point(there) - one.velocity_at_point(here);
-        let spring = &joint.data.motors[0];
-        let sub_step_secs = self.settings.step_secs() / self.engine.parameters.num_solver_iterations as f64;
-        ((there - here) * spring.stiffness + slip * spring.damping) * sub_step_secs
+        let Some(holder) = self.engine.bodies.get(joint.body1()) else { return DVec3::ZERO };
+        let motors = &joint.data.motors;
+        let along = DVec3::new(motors[0].impulse, motors[1].impulse, motors[2].impulse);
+        *holder.rotation() * (joint.data.local_frame1.rotation * along)
     }
 
     pub(crate) fn break_attachments(&mut self) {
