@@ -81,7 +81,7 @@ fn a_motion_that_jumps_is_met_without_a_jump_of_the_body() {
     let performer = performer::standing(5.0);
     let mut act = Act::new(&performer, KdSettings::default());
     let mut fastest: f64 = 0.0;
-    for frame in 0..240 {
+    for frame in 0..360 {
         let mut wanted = *performer.pose(0);
         // Two metres aside and turned about, from one frame to the next.
         if frame >= 60 {
@@ -99,8 +99,8 @@ fn a_motion_that_jumps_is_met_without_a_jump_of_the_body() {
             fastest = parts.iter().map(|part| part.velocity.length()).fold(fastest, f64::max);
         }
     }
-    // Two metres in half a second, smoothly: 1.9 times the mean speed in the middle, and hands on the outside of the turn.
-    assert!(fastest < 12.0, "{fastest} m/s");
+    // The way is slid over at 2 m/s at most, and hands are on the outside of the turn.
+    assert!(fastest < 4.0, "{fastest} m/s");
     let off = act.world.frame().characters[0].parts[0].position - performer.pose(0).hips_position;
     assert!((off - glam::DVec3::X * 2.0).length() < 0.01, "{off}");
 }
