@@ -140,7 +140,10 @@ impl Stage {
                 let things: Vec<Weighs> = nodes.iter().map(|&node| Weighs::Part(character, node)).collect();
                 self.weigh(&things, scale, over_secs);
                 for &node in &nodes {
-                    self.spans.end_at(until, Ending::Gravity(character, node));
+                    self.spans.end_at(until.filter(|_| only.is_some()), Ending::PartGravity(character, node));
+                }
+                if only.is_none() {
+                    self.spans.end_at(until, Ending::Gravity(character));
                 }
                 let of = if only.is_some() { format!(" on {}", listed(&nodes)) } else { String::new() };
                 format!("{who}: gravity{of} times {scale}{}", over(over_secs))
@@ -230,7 +233,13 @@ impl Stage {
                 self.world.free_from_plane(*character);
                 format!("{} is free in three dimensions", who(*character))
             }
-            Ending::Gravity(character, node) => {
+            Ending::Gravity(character) => {
+                let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
+                let effect = format!("{}: gravity times {scale}", who(*character));
+                self.weigh(&Node::ALL.map(|node| Weighs::Part(*character, node)), scale, None);
+                effect
+            }
+            Ending::PartGravity(character, node) => {
                 let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
                 let effect = format!("{}: gravity on {} times {scale}", who(*character), node.part());
                 self.weigh(&[Weighs::Part(*character, *node)], scale, None);

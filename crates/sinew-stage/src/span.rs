@@ -12,8 +12,10 @@ pub enum Ending {
     ForcesOff(usize, Node),
     /// A character is freed from its plane.
     Plane(usize),
+    /// A character's gravity goes back to its scale in the scene.
+    Gravity(usize),
     /// Gravity on a part goes back to the character's scale in the scene.
-    Gravity(usize, Node),
+    PartGravity(usize, Node),
     /// A prop's gravity goes back to its scale in the scene.
     PropGravity(usize),
     /// A part gets its own shape again.

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 use glam::DVec3;
+use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command, Layer};
 use sinew_stage::{Scene, Stage};
 
@@ -49,6 +50,22 @@ fn what_lasts_for_a_time_ends_at_its_step() {
     let effects = effects(&stage);
     assert_eq!(effects[0], (24, "one: gravity times 0".to_owned()));
     assert_eq!(effects[1], (72, "one: gravity times 1".to_owned()));
+}
+
+#[test]
+fn gravity_fades_and_acts_on_one_part() {
+    let command = "[[at]]\ntime_secs = 0\ncharacter = \"one\"\ndo = \"gravity\"\nscale = -1.0\n";
+    let mut fades = stage(&format!("{STANDING}{command}over_secs = 1.0\n"));
+    steps(&mut fades, 120);
+    assert!(fades.world().part_gravity(0, Node::Head).abs() < 1e-9, "half way from 1 to -1");
+    steps(&mut fades, 240);
+    assert_eq!(fades.world().part_gravity(0, Node::Head), -1.0);
+    let mut part = stage(&format!("{STANDING}{command}part = \"leftHand\"\nfor_secs = 0.5\n"));
+    steps(&mut part, 60);
+    assert_eq!(part.world().part_gravity(0, Node::LeftHand), -1.0);
+    assert_eq!(part.world().part_gravity(0, Node::RightHand), 1.0);
+    steps(&mut part, 120);
+    assert_eq!(part.world().part_gravity(0, Node::LeftHand), 1.0);
 }
 
 #[test]
