@@ -20,6 +20,14 @@ fn own(line: &str) -> Value {
     command
 }
 
+/// What is left out is the same as null.
+fn stated(mut command: Value) -> Value {
+    if let Some(keys) = command.as_object_mut() {
+        keys.retain(|_, value| !value.is_null());
+    }
+    command
+}
+
 #[test]
 fn every_word_that_steers_makes_its_command() {
     let cases = [
@@ -75,7 +83,7 @@ fn every_word_that_steers_makes_its_command() {
         ("useTracker('response')", json!({"do": "tracker", "name": "response"})),
     ];
     for (word, expected) in cases {
-        assert_eq!(own(&format!("skeleton.{word}")), expected, "{word}");
+        assert_eq!(stated(own(&format!("skeleton.{word}"))), stated(expected), "{word}");
     }
     assert_eq!(own("say('hello')"), json!({"do": "say", "text": "hello"}));
 }

@@ -14,7 +14,7 @@ use sinew_stage::{Stage, Take};
 /// use sinew::session::reached;
 /// use sinew::stage::{Scene, Take};
 /// let scene = Scene::from_text("format = 1\n[characters.red]\n[characters.blue]\nposition_m = [3, 0, 0]\n")?;
-/// let push = Action::Push { on: "chest".into(), force_n: [0.0, 0.0, 50.0], for_secs: 0.1, facing: false };
+/// let push = Action::Push { on: "chest".into(), force_n: [0.0, 0.0, 50.0], for_secs: 0.1, facing: false, at_m: None };
 /// let mut take = Take::of(&scene);
 /// take.push(10, Command::to("red", push));
 /// take.steps = 100;
