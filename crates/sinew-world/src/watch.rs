@@ -192,7 +192,7 @@ impl World {
         }
     }
 
-    /// The hash of its [`Frame`].
+    /// The hash of its [`crate::Frame`].
     pub fn hash(&self) -> u64 {
         self.frame.hash()
     }
