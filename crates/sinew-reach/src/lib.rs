@@ -7,15 +7,17 @@
 //!
 //! | job | file |
 //! |---|---|
-//! | arm: the hand's way (EQ1 to 4), two-bone limb | `hand_path.rs`, `compose.rs` |
+//! | arm: the hand's way (EQ1 to 4), two-bone limb | `hand_path.rs`, `arm.rs`, `compose.rs` |
 //! | spine: twist (EQ5, EQ6), swing (EQ7), root (EQ8) | `spine.rs` |
 //! | head | `head.rs` |
 //! | legs: whether and how far to step (EQ9), strides | `legs.rs`, `walk.rs`, `feet.rs` |
-//! | scheduler: states 0 to 3 | `plan.rs`, `reacher.rs` |
+//! | scheduler: states 0 to 3 | `plan.rs`, `schedule.rs` |
 //! | open values | `values.rs` |
+//! | the pose it begins in; goals | `start.rs`, `reacher.rs` |
 //!
 //! This crate knows nothing of worlds and engines.
 
+mod arm;
 mod compose;
 mod dice;
 mod feet;
@@ -29,8 +31,10 @@ mod outcome;
 mod plan;
 mod reacher;
 mod route;
+mod schedule;
 mod solve;
 mod spine;
+mod start;
 mod values;
 mod walk;
 
@@ -44,10 +48,11 @@ pub use legs::{
 };
 pub use obstacle::Obstacle;
 pub use outcome::{Outcome, Reason};
-pub use reacher::{Goal, Reacher, Start, standing};
+pub use reacher::{Goal, Reacher};
 pub use route::MOST_OBSTACLES;
 pub use spine::{
     reaching_angle, root_shift, search_twist, squat_for, stoop_range_m, swing_axis, swing_shares, twist_shares,
 };
+pub use start::{Start, standing};
 pub use values::{Style, StyleError, Values};
 pub use walk::Step;

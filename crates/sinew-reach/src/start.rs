@@ -1,0 +1,117 @@
+//! The pose out of which a reach begins, and how what it has beyond a standing body's passes.
+
+use crate::compose::ARMS;
+use crate::feet::Placement;
+use crate::glide::Glide;
+use crate::reacher::Reacher;
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, LEGS, Node, Pose, log};
+
+/// The pose that somebody is in when a reach begins, and how it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// The pose.
+    pub pose: Pose,
+    /// The pose a moment before, and how long before \[s\]; none for a body at rest.
+    pub before: Option<(Pose, f64)>,
+}
+
+/// A body standing at a place of the floor, facing an angle \[rad about +Y from +Z to +X\], its soles on it.
+pub fn standing(body: &Body, place: DVec3, facing_rad: f64) -> Pose {
+    let turn = DQuat::from_rotation_y(facing_rad);
+    let mut pose = Pose { hips_position: DVec3::ZERO, world: [turn; Node::COUNT] };
+    let at = pose.positions(body);
+    let sole = sinew_body::humanoid::Sole::of(body, Node::LeftFoot).ankle_m;
+    let ankles = (at[Node::LeftFoot.index()] + at[Node::RightFoot.index()]) * 0.5;
+    pose.hips_position = place + DVec3::Y * (sole - ankles.y);
+    pose
+}
+
+/// Where both feet come to stand, on the floor below the lower sole.
+pub(crate) fn placed_feet(start: &Start, body: &Body, ankle_m: f64) -> [Placement; 2] {
+    let pose = &start.pose;
+    let at = pose.positions(body);
+    let floor = LEGS.iter().map(|(_, _, foot)| at[foot.index()].y).fold(f64::INFINITY, f64::min) - ankle_m;
+    let mut placed = [0, 1].map(|side| {
+        let (_, _, foot) = LEGS[side];
+        let toes = pose.world[foot.index()] * DVec3::Z;
+        let ankle = at[foot.index()] + lands_ahead(start, body, foot);
+        Placement { ankle: DVec3::new(ankle.x, floor + ankle_m, ankle.z), yaw_rad: libm::atan2(toes.x, toes.z) }
+    });
+    placed[1].yaw_rad = placed[0].yaw_rad + crate::spine::wrapped(placed[1].yaw_rad - placed[0].yaw_rad);
+    placed
+}
+
+/// How far ahead of where it is a foot lands that is on its way when the reach begins \[m\].
+fn lands_ahead(start: &Start, body: &Body, foot: Node) -> DVec3 {
+    let Some((before, ago)) = &start.before else { return DVec3::ZERO };
+    let at = |pose: &Pose| pose.positions(body)[foot.index()];
+    let velocity = (at(&start.pose) - at(before)) / ago.max(1e-3);
+    let flat = DVec3::new(velocity.x, 0.0, velocity.z);
+    let moves = crate::head::smooth(flat.length(), 0.2, 0.8);
+    (flat * (LANDS_SECS * moves)).clamp_length_max(0.45 * body.stature_m() / 1.7)
+}
+
+/// A foot in the air goes on for so long at its speed, in all, until it stands \[s\].
+const LANDS_SECS: f64 = 0.2;
+
+/// How long what is left of the start's pose takes to pass \[s\]: of a body at rest, and of one that moves.
+const SETTLES_SECS: (f64, f64) = (0.5, 0.4);
+
+/// Share of a moving body's carried arms that stays when it stands.
+const CARRIED_ON: f64 = 0.35;
+
+impl Reacher {
+    /// What the start's pose has and a standing body has not, to pass in a while.
+    pub(crate) fn begin(&mut self, start: &Start) {
+        let body = self.frame.body.clone();
+        let plain = self.composed_at(0.0).pose;
+        let (own, before) = (start.pose, start.before);
+        let lasts = if before.is_some() { SETTLES_SECS.1 } else { SETTLES_SECS.0 };
+        let glide = |now: DVec3, then: Option<(DVec3, f64)>| {
+            let velocity = then.map_or(DVec3::ZERO, |(then, ago)| (now - then) / ago.max(1e-3));
+            Glide::moving(0.0, now, velocity.clamp_length_max(20.0), DVec3::ZERO, lasts)
+        };
+        // A body that moves goes on for a little: it comes to stand where its feet land.
+        let turn = |pose: &Pose| log(pose.world[0] * plain.world[0].conjugate());
+        self.hips = [
+            glide(
+                own.hips_position - plain.hips_position,
+                before.map(|(pose, ago)| (pose.hips_position - plain.hips_position, ago)),
+            ),
+            glide(turn(&own), before.map(|(pose, ago)| (turn(&pose), ago))),
+        ];
+        for (index, node) in [Node::Chest, Node::Neck, Node::Head].into_iter().enumerate() {
+            let left = |pose: &Pose| log(plain.local(node).conjugate() * pose.local(node));
+            self.trunk[index] = glide(left(&own), before.map(|(pose, ago)| (left(&pose), ago)));
+        }
+        if let Some((pose, ago)) = before {
+            for side in 0..2 {
+                for (index, node) in ARMS[side].into_iter().enumerate() {
+                    let (now, then) = (log(own.local(node)), log(pose.local(node)));
+                    self.arms[side].carried[index] =
+                        Glide::moving(0.0, now, (now - then) / ago.max(1e-3), now * CARRIED_ON, lasts);
+                }
+            }
+        }
+        let at = own.positions(&body);
+        let ago_at = before.map(|(pose, ago)| (pose.positions(&body), pose, ago));
+        for side in 0..2 {
+            let (_, lower, foot) = LEGS[side];
+            let (ankle, sole) = self.feet.foot(side, 0.0);
+            let shift = at[foot.index()] - ankle;
+            let turned = log(own.world[foot.index()] * sole.conjugate());
+            let then = ago_at.map(|(at, pose, ago)| {
+                (at[foot.index()] - ankle, log(pose.world[foot.index()] * sole.conjugate()), ago)
+            });
+            self.feet.rests[side] =
+                (glide(shift, then.map(|then| (then.0, then.2))), glide(turned, then.map(|then| (then.1, then.2))));
+            // Where the knee points, against where the toes do.
+            let hinge = own.world[lower.index()] * DVec3::X;
+            let forward = hinge.cross(DVec3::Y);
+            let yaw = crate::spine::wrapped(libm::atan2(forward.x, forward.z) - self.feet.planted[side].yaw_rad);
+            let turn = if forward.length() > 0.3 { yaw.clamp(-0.8, 0.8) } else { 0.0 };
+            self.knees[side] = Glide::moving(0.0, turn, 0.0, 0.0, lasts);
+        }
+    }
+}
