@@ -44,6 +44,10 @@ pub struct Actor {
     pub(crate) stance: Stance,
     pub(crate) motion: Option<MotionSource>,
     pub(crate) reaching: Option<Reaching>,
+    /// How often it was told to reach.
+    pub(crate) reaches: u64,
+    /// Hands, left 0 and right 1, and the props that they pass through.
+    pub(crate) through: Vec<(usize, usize)>,
     pub(crate) performance: Option<Performance>,
     /// Whether a source moved its hips in the last step.
     pub(crate) moved_root: bool,
@@ -87,6 +91,8 @@ impl Actor {
             stance: Stance::default(),
             motion: None,
             reaching: None,
+            reaches: 0,
+            through: Vec::new(),
             performance: None,
             moved_root: false,
             script: None,

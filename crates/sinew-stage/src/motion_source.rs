@@ -53,6 +53,11 @@ pub(crate) struct Play {
 }
 
 impl MotionSource {
+    /// Poses at a rate \[Hz\], of which the one at `start_secs` is the stage's first.
+    pub fn of_poses(poses: Vec<Pose>, hz: f64, start_secs: f64) -> MotionSource {
+        MotionSource { poses, hz, start_secs }
+    }
+
     /// A clip's poses, moved so that at the start the hips are over the character's place and face where it faces.
     pub(crate) fn of(
         file: &MotionFile,
@@ -125,7 +130,7 @@ impl MotionSource {
 
     /// Goes on at `now_secs` of the stage from where the clip was at `left_secs`, moved and turned about the vertical so that the
     /// hips are over the place of a pose and face as there.
-    pub(crate) fn resume(&mut self, left_secs: f64, now_secs: f64, at: &Pose) {
+    pub fn resume(&mut self, left_secs: f64, now_secs: f64, at: &Pose) {
         let here = self.pose_at(left_secs);
         let heading = |pose: &Pose| {
             let forward = pose.world[0] * DVec3::Z;

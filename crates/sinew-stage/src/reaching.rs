@@ -2,20 +2,13 @@
 
 use crate::Stage;
 use crate::actor::Actor;
+use crate::reach_aim::{self, Aimed, HANDS};
+use crate::reach_back::{HAND_OVER_SECS, handed_over};
 use crate::scene::TrackerKind;
-use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
 use sinew_control::{ReachHand, ReachOrder, Target};
-use sinew_reach::{Goal, Obstacle, Reacher, Start, Style};
-use sinew_world::{BodyState, CharacterFrame, Entity, Form, Frame, Held, Solid};
-
-/// Where a hand is to come.
-#[derive(Clone, Copy, Debug)]
-enum Aimed {
-    Point(DVec3),
-    /// A prop's centre and how far from it, world \[m\].
-    Prop(usize, DVec3),
-}
+use sinew_reach::{Goal, Reacher, Start, Style};
+use sinew_world::{BodyState, CharacterFrame, Entity, Frame, Held};
 
 /// How far along a reach is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,8 +25,12 @@ enum Phase {
 pub(crate) struct Reaching {
     reacher: Reacher,
     order: ReachOrder,
-    /// When the reacher's time began \[s\].
+    /// When the reacher's time began, and when the last order came \[s\].
     began_secs: f64,
+    ordered_secs: f64,
+    /// Counts the character's orders, from 1.
+    number: u64,
+    character: usize,
     aimed: [Option<Aimed>; 2],
     phase: Phase,
     /// The time is up.
@@ -45,26 +42,33 @@ pub(crate) struct Reaching {
     has_resumed: bool,
 }
 
-/// How long handing over takes \[s\].
-const HAND_OVER_SECS: f64 = 0.6;
+/// A reach under way, to look at.
+#[derive(Clone, Copy, Debug)]
+pub struct ReachNow<'a> {
+    /// Counts the character's reaches, from 1.
+    pub number: u64,
+    /// Who plans it. Its poses are what is wanted, not where the body is.
+    pub reacher: &'a Reacher,
+    /// When it was ordered, in the reacher's time \[s\].
+    pub since_secs: f64,
+    /// Now, in the reacher's time \[s\].
+    pub now_secs: f64,
+    /// Where the hands are to be now, world \[m\].
+    pub goal: Goal,
+}
 
-/// How near the hand must be to what it grasps, beyond where it was sent \[m\]: the body may be off its wanted pose.
-const GRASP_M: f64 = 0.08;
+/// How near the hand must be to where it was sent, to grasp \[m\]: the body may be off its wanted pose.
+const GRASP_M: f64 = 0.04;
 
 /// How near counts as there \[m\].
 const THERE_M: f64 = 0.02;
-
-/// A hand's own thickness, between its centre and what it touches \[m\].
-const PALM_M: f64 = 0.035;
 
 impl Reaching {
     /// The wanted pose at a time of the stage \[s\].
     pub fn pose_at(&self, time_secs: f64, without: impl FnOnce() -> Pose) -> Pose {
         let own = self.reacher.pose_at(time_secs - self.began_secs);
         let Phase::Leaving(since) = self.phase else { return own };
-        let share = ((time_secs - since) / HAND_OVER_SECS).clamp(0.0, 1.0);
-        let share = share * share * share * (10.0 + share * (6.0 * share - 15.0));
-        mixed(&own, &without(), share)
+        handed_over(&own, &without(), time_secs - since)
     }
 
     /// Another source takes over.
@@ -77,11 +81,7 @@ impl Reaching {
 
     /// Both hands' targets now.
     fn goal(&self, frame: &Frame) -> Goal {
-        let at = |aimed: Option<Aimed>| match aimed? {
-            Aimed::Point(point) => Some(point),
-            Aimed::Prop(prop, offset) => Some(frame.props.get(prop)?.centre + offset),
-        };
-        Goal { left: at(self.aimed[0]), right: at(self.aimed[1]) }
+        reach_aim::goal(&self.aimed, frame, self.character)
     }
 }
 
@@ -96,16 +96,6 @@ pub(crate) fn write(poses: &[Pose; 2], step_secs: f64, target: &mut Target) {
         joint.damping = 1.0;
     }
     target.root = Some((poses[0].hips_position, poses[0].world[0]));
-}
-
-fn mixed(from: &Pose, to: &Pose, share: f64) -> Pose {
-    let mut pose = *from;
-    pose.hips_position = from.hips_position.lerp(to.hips_position, share);
-    for node in Node::ALL {
-        let (one, other) = (from.world[node.index()], to.world[node.index()]);
-        pose.world[node.index()] = (one * exp(log(one.conjugate() * other) * share)).normalize();
-    }
-    pose
 }
 
 impl Actor {
@@ -139,8 +129,7 @@ impl Stage {
         {
             return Ok(None);
         }
-        let character = frame.characters.get(index).ok_or("the character is not in the world")?;
-        let aimed = self.aim_of(character, order)?;
+        let aimed = self.aim_of(index, order)?;
         let obstacles = self.obstacles(&order.avoid)?;
         let frame = self.world.frame().clone();
         let start = self.start_of(index, &frame.characters[index], now_secs);
@@ -156,6 +145,9 @@ impl Stage {
                 reacher: Reacher::new(actor.body(), &style, &start).map_err(|error| error.to_string())?,
                 order: order.clone(),
                 began_secs: now_secs,
+                ordered_secs: now_secs,
+                number: 0,
+                character: index,
                 aimed,
                 phase: Phase::Reaching,
                 has_arrived: false,
@@ -164,6 +156,9 @@ impl Stage {
                 has_resumed: false,
             },
         };
+        actor.reaches += 1;
+        reaching.number = actor.reaches;
+        reaching.ordered_secs = now_secs;
         reaching.order = order.clone();
         reaching.aimed = aimed;
         reaching.phase = Phase::Reaching;
@@ -172,7 +167,9 @@ impl Stage {
         reaching.reacher.set_obstacles(&obstacles);
         let goal = reaching.goal(&frame);
         let outcome = reaching.reacher.reach(&goal).clone();
+        let arrives_secs = reaching.began_secs + outcome.arrives_secs - now_secs;
         actor.reaching = Some(reaching);
+        self.pass_through(index, &aimed);
         let what = order.object.clone().unwrap_or_else(|| {
             let point = goal.left.or(goal.right).unwrap_or_default();
             format!("{point:.2}")
@@ -183,14 +180,20 @@ impl Stage {
             many => format!(", with {many} steps"),
         };
         let fails = outcome.reason.map_or(String::new(), |reason| format!("; {}", reason.text()));
-        Ok(Some(format!(
-            "reaches for {what} in {:.2} s{how}{fails}",
-            outcome.arrives_secs - (now_secs - self.began(index))
-        )))
+        Ok(Some(format!("reaches for {what} in {arrives_secs:.2} s{how}{fails}")))
     }
 
-    fn began(&self, index: usize) -> f64 {
-        self.actors[index].reaching.as_ref().map_or(0.0, |reaching| reaching.began_secs)
+    /// The reach that a character is about, if it reaches now.
+    pub fn reach_of(&self, character: usize) -> Option<ReachNow<'_>> {
+        let frame = self.world.frame();
+        let reaching = self.actors.get(character)?.reaching.as_ref()?;
+        (reaching.phase == Phase::Reaching).then(|| ReachNow {
+            number: reaching.number,
+            reacher: &reaching.reacher,
+            since_secs: reaching.ordered_secs - reaching.began_secs,
+            now_secs: frame.time_secs - reaching.began_secs,
+            goal: reaching.goal(frame),
+        })
     }
 
     /// The wanted pose and how it moves; of a body that springs or nothing drives, its own.
@@ -207,63 +210,17 @@ impl Stage {
         Start { pose, before }
     }
 
-    /// Where each hand is to come.
-    fn aim_of(&self, character: &CharacterFrame, order: &ReachOrder) -> Result<[Option<Aimed>; 2], String> {
-        if order.left_m.is_some() || order.right_m.is_some() {
-            let point = |place: Option<[f64; 3]>| place.map(|place| Aimed::Point(place.into()));
-            return Ok([point(order.left_m), point(order.right_m)]);
-        }
-        let left = character.left();
-        let middle = |hand: ReachHand, target: DVec3| match hand {
-            ReachHand::Left => 0,
-            ReachHand::Right => 1,
-            _ => usize::from((target - character.parts[0].position).dot(left) < 0.06),
-        };
-        if let Some(point) = order.target_m {
-            let point = DVec3::from(point);
-            let mut aimed = [None; 2];
-            aimed[middle(order.hand, point)] = Some(Aimed::Point(point));
-            return Ok(aimed);
-        }
-        let name = order.object.as_deref().unwrap_or_default();
-        let prop = self.cast.prop(name).ok_or_else(|| format!("no object `{name}`"))?;
-        let state = self.world.frame().props.get(prop).ok_or("it is not in the world")?;
-        let solid = self.scene.props.values().nth(prop).and_then(crate::scene::PropSpec::solid);
-        let surface = |direction: DVec3| {
-            let depth = solid.as_ref().map_or(0.0, |solid| depth(solid, state, direction));
-            direction * (depth + PALM_M)
-        };
-        if order.hand == ReachHand::Both {
-            return Ok([Some(Aimed::Prop(prop, surface(left))), Some(Aimed::Prop(prop, surface(-left)))]);
-        }
-        let side = middle(order.hand, state.centre);
-        let shoulder = character.part([Node::LeftUpperArm, Node::RightUpperArm][side]).position;
-        // From the shoulder's side, rather from the side than from above.
-        let mut from = shoulder - state.centre;
-        from.y *= 0.35;
-        let mut aimed = [None; 2];
-        aimed[side] = Some(Aimed::Prop(prop, surface(from.normalize_or(DVec3::Y))));
-        Ok(aimed)
-    }
-
-    /// Props that arms keep clear of, where they are now.
-    fn obstacles(&self, names: &[String]) -> Result<Vec<Obstacle>, String> {
-        let mut all = Vec::new();
-        for name in names {
-            let prop = self.cast.prop(name).ok_or_else(|| format!("no object `{name}`"))?;
-            let (Some(state), Some(solid)) = (
-                self.world.frame().props.get(prop),
-                self.scene.props.values().nth(prop).and_then(crate::scene::PropSpec::solid),
-            ) else {
-                continue;
-            };
-            all.extend(obstacles_of(&solid, state));
-        }
-        Ok(all)
+    /// Whether a hand reaches for a prop now.
+    pub(crate) fn is_aimed(&self, index: usize, side: usize, prop: usize) -> bool {
+        let reaching = self.actors[index].reaching.as_ref().filter(|reaching| reaching.phase == Phase::Reaching);
+        reaching.is_some_and(|reaching| matches!(reaching.aimed[side], Some(Aimed::Prop(aimed, _)) if aimed == prop))
     }
 
     /// A step of a character's reach: targets followed, grasps taken, the end handed over.
     pub(crate) fn step_reach(&mut self, index: usize) {
+        if !self.actors[index].through.is_empty() {
+            self.end_passing(index);
+        }
         let frame = self.world.frame();
         let now_secs = frame.time_secs;
         let Some(reaching) = &mut self.actors[index].reaching else { return };
@@ -272,7 +229,7 @@ impl Stage {
         match reaching.phase {
             Phase::Reaching => {
                 let goal = reaching.goal(frame);
-                if reaching.aimed.iter().any(|aimed| matches!(aimed, Some(Aimed::Prop(..)))) {
+                if reaching.aimed.iter().any(|aimed| matches!(aimed, Some(Aimed::Prop(..) | Aimed::Held(..)))) {
                     reaching.reacher.follow(&goal);
                 }
                 if !reaching.is_there && own_secs >= reaching.reacher.outcome().arrives_secs {
@@ -308,7 +265,7 @@ impl Stage {
         let mut holds = Vec::new();
         for (side, target) in [goal.left, goal.right].into_iter().enumerate() {
             let Some(target) = target else { continue };
-            let node = [Node::LeftHand, Node::RightHand][side];
+            let node = HANDS[side];
             let hand = frame.characters[index].part(node);
             let gap = (hand.centre - target).length();
             let prop = match self.actors[index].reaching.as_ref().and_then(|reaching| reaching.aimed[side]) {
@@ -368,48 +325,4 @@ fn earlier(parts: &[BodyState; Node::COUNT], pose: &Pose, ago: f64) -> Pose {
     let velocity = hips.velocity + hips.angular_velocity.cross(arm);
     before.hips_position -= velocity * ago;
     before
-}
-
-/// How far a prop's surface is from its centre in a direction \[m\].
-fn depth(solid: &Solid, state: &BodyState, direction: DVec3) -> f64 {
-    let turn = state.rotation * solid.rotation;
-    let local = turn.conjugate() * direction;
-    match &solid.form {
-        Form::Ball { radius_m } => *radius_m,
-        Form::Capsule { radius_m, length_m } => radius_m + 0.5 * length_m * local.y.abs(),
-        Form::Box { size_m } => {
-            // Where the ray leaves the box.
-            let half = *size_m * 0.5;
-            let share = |axis: usize| half[axis] / local[axis].abs().max(1e-9);
-            share(0).min(share(1)).min(share(2))
-        }
-        Form::Ring { radius_m, tube_m } => radius_m + tube_m,
-        Form::Hull { points_m } => points_m.iter().map(|point| point.dot(local)).fold(0.0, f64::max),
-        Form::Mesh { points_m, .. } => points_m.iter().map(|point| point.dot(local)).fold(0.0, f64::max),
-    }
-}
-
-/// A prop as what must not be touched; a ring as its hull's box, meshes and hulls by the box around them.
-fn obstacles_of(solid: &Solid, state: &BodyState) -> Vec<Obstacle> {
-    let centre = state.position + state.rotation * solid.centre;
-    let turn: DQuat = (state.rotation * solid.rotation).normalize();
-    let around = |points: &[DVec3]| {
-        let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-        Obstacle::Box { centre: centre + turn * ((low + high) * 0.5), turn, half_m: (high - low) * 0.5 }
-    };
-    vec![match &solid.form {
-        Form::Ball { radius_m } => Obstacle::Capsule { from: centre, to: centre, radius_m: *radius_m },
-        Form::Capsule { radius_m, length_m } => {
-            let half = turn * DVec3::Y * (0.5 * length_m);
-            Obstacle::Capsule { from: centre - half, to: centre + half, radius_m: *radius_m }
-        }
-        Form::Box { size_m } => Obstacle::Box { centre, turn, half_m: *size_m * 0.5 },
-        Form::Ring { radius_m, tube_m } => {
-            let reach = radius_m + tube_m;
-            Obstacle::Box { centre, turn, half_m: DVec3::new(reach, *tube_m, reach) }
-        }
-        Form::Hull { points_m } => around(points_m),
-        Form::Mesh { points_m, .. } => around(points_m),
-    }]
 }

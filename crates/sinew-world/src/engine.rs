@@ -1,5 +1,6 @@
 //! The rigid-body library's own sets, kept in one place: nothing outside this crate sees its types.
 
+use crate::passing::Passing;
 use crate::{Entity, WorldSettings};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
@@ -20,8 +21,7 @@ pub(crate) struct Engine {
     pub gravity: DVec3,
     /// The fixed body that carries the floor and the planes that hold characters.
     pub ground: RigidBodyHandle,
-    /// By character and part: a bit for each of its own parts that it passes through.
-    pub passing: Vec<[u32; Node::COUNT]>,
+    pub passing: Passing,
 }
 
 impl Engine {
@@ -51,7 +51,7 @@ impl Engine {
             ccd: CCDSolver::new(),
             gravity: DVec3::new(0.0, -settings.gravity_m_s2, 0.0),
             ground: RigidBodyHandle::invalid(),
-            passing: Vec::new(),
+            passing: Passing::default(),
         };
         // With its feature on, the library would take every core of the machine.
         engine.set_threads(1);
@@ -92,27 +92,9 @@ impl Engine {
             &mut self.multibody_joints,
             &mut self.soft_bodies,
             &mut self.ccd,
-            &Passing { pairs: &self.passing },
+            &self.passing,
             &(),
         );
-    }
-}
-
-/// Tells the library which parts of a character pass through each other.
-struct Passing<'a> {
-    pairs: &'a [[u32; Node::COUNT]],
-}
-
-impl PhysicsHooks for Passing<'_> {
-    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
-        let entity = |handle: ColliderHandle| untag(context.colliders.get(handle)?.user_data);
-        let passes = match (entity(context.collider1), entity(context.collider2)) {
-            (Some(Entity::Part(one, node)), Some(Entity::Part(other, part))) if one == other => {
-                self.pairs.get(one).is_some_and(|masks| masks[node.index()] & 1 << part.index() != 0)
-            }
-            _ => false,
-        };
-        (!passes).then(SolverFlags::default)
     }
 }
 

@@ -14,6 +14,7 @@ mod extra_shape;
 mod frame;
 mod joint;
 mod nearest;
+mod passing;
 mod pin;
 mod plane;
 mod prop;

@@ -80,7 +80,7 @@ impl World {
         let index = self.characters.len();
         let character = ragdoll::build(&mut self.engine, &spec, index)?;
         self.characters.push(character);
-        self.engine.passing.push([0; Node::COUNT]);
+        self.engine.passing.own.push([0; Node::COUNT]);
         self.look_at_new();
         Ok(index)
     }
@@ -150,25 +150,6 @@ impl World {
             character.pins[at] = None;
         }
         character.hold_changed(&mut self.engine);
-    }
-
-    /// Which of its own parts pass through each other instead of colliding: by [`Node::index`], a bit for each other part; pairs
-    /// are named from both sides.
-    pub fn set_passing(&mut self, character: usize, masks: [u32; Node::COUNT]) {
-        let (Some(one), Some(passing)) = (self.characters.get(character), self.engine.passing.get_mut(character))
-        else {
-            return;
-        };
-        for at in 0..Node::COUNT {
-            // The library looks at every contact of a part that asks first anew in each step: only those ask that must.
-            if (passing[at] == 0) != (masks[at] == 0)
-                && let Some(collider) = self.engine.colliders.get_mut(one.colliders[at])
-            {
-                let asks = if masks[at] == 0 { ActiveHooks::empty() } else { ActiveHooks::FILTER_CONTACT_PAIRS };
-                collider.set_active_hooks(asks);
-            }
-        }
-        *passing = masks;
     }
 
     /// Holds a part to a place in the world, or lets it go with `None`.

@@ -4,6 +4,8 @@
 #[path = "common/command.rs"]
 mod command;
 mod common;
+#[path = "command/reach.rs"]
+mod reach;
 
 use command::{Ran, json, sinew};
 use common::{mocap, read};

@@ -8,6 +8,9 @@ use sinew::run::{Ran, RunJob, run};
 use sinew::stage::{RecordedCharacter, Scene};
 use std::path::Path;
 
+#[path = "skills/reach.rs"]
+mod reach;
+
 fn play(name: &str) -> Ran {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenes/{name}.toml"));
     let scene = Scene::read(&file).unwrap_or_else(|error| panic!("{error}"));

@@ -79,7 +79,7 @@ impl Join {
             let first = report.tally.first_step.unwrap_or_default();
             self.out.write_motion(view.recording(), &scene, &format!("as {whom} saw it from step {first} on"))?;
         }
-        self.out.write_report(&report)?;
+        self.out.files().write_report(&report)?;
         let tally = &report.tally;
         let mut lines = vec![format!(
             "{} frames to step {}, {} late, {} differ; round trip {:.1} ms",
@@ -90,10 +90,7 @@ impl Join {
             tally.round_trip_ms
         )];
         lines.extend(tally.not_passed.iter().map(|problem| format!("not passed on: {problem}")));
-        let written: Vec<String> = self.out.written().map(|path| path.display().to_string()).collect();
-        if !written.is_empty() {
-            lines.push(format!("wrote {}", written.join(", ")));
-        }
+        lines.extend(self.out.files().words(std::iter::empty()));
         output::say(&lines.join("\n"))?;
         if tally.frames_that_differ > 0 {
             bail!("what arrived is not what the server has: its hashes differ; use the same Sinew on both sides");

@@ -1,14 +1,17 @@
 //! The command line: arguments in, jobs of the library, words out.
 
 mod convert;
+mod files;
 mod inspect;
 #[cfg(feature = "session")]
 mod join;
 mod live;
+mod number;
 mod output;
 mod perform;
 mod push_argument;
 mod reach;
+mod reach_argument;
 mod respond;
 mod run;
 #[cfg(feature = "session")]
@@ -16,6 +19,7 @@ mod serve;
 mod session;
 
 use clap::{Parser, Subcommand};
+use number::within;
 use sinew::body::humanoid::ReductionError;
 use sinew::motion::formats::ReadOptions;
 use sinew::reach::ReachError;
@@ -79,11 +83,11 @@ impl Reading {
 /// Whom the character is taken to be.
 #[derive(Debug, clap::Args)]
 struct Who {
-    /// Mass of the body in kilograms.
-    #[arg(long, value_name = "KG", default_value_t = 80.0)]
+    /// Mass of the body in kilograms, 1 to 1000.
+    #[arg(long, value_name = "KG", default_value_t = 80.0, value_parser = within::<100, 100_000>)]
     mass: f64,
-    /// Height of the body in metres instead of the skeleton's own.
-    #[arg(long, value_name = "M")]
+    /// Height of the body in metres, 0.2 to 10, instead of the skeleton's own.
+    #[arg(long, value_name = "M", value_parser = within::<20, 1000>)]
     height: Option<f64>,
 }
 

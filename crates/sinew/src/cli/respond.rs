@@ -1,5 +1,6 @@
 //! `sinew respond`.
 
+use super::files::Files;
 use super::push_argument::{cycle, ground, push};
 use super::{Reading, Who, output};
 use anyhow::{Context, Result};
@@ -46,15 +47,8 @@ pub(super) struct Respond {
     /// Play the cycle N times, seamlessly, instead of the clip.
     #[arg(long, value_name = "N", default_value_t = 0)]
     repeat: usize,
-    /// Where to write the answered clip; the extension tells the format; may be repeated.
-    #[arg(short, long, value_name = "OUT")]
-    output: Vec<PathBuf>,
-    /// Where to write a report as JSON.
-    #[arg(long, value_name = "R.json")]
-    report: Option<PathBuf>,
-    /// Where to draw a picture.
-    #[arg(long, value_name = "P.png")]
-    picture: Option<PathBuf>,
+    #[command(flatten)]
+    files: Files,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -92,9 +86,8 @@ impl Respond {
         let shows = self.clip.is_none() && self.push.is_empty() && self.platform.is_empty();
         let pushes = if shows { vec![SHOW] } else { self.push.clone() };
         let inputs = self.clip.iter().chain(&self.basis).chain(&self.reading.skeleton);
-        let outputs = self.output.iter().chain(&self.report).chain(&self.picture);
-        output::check_places(inputs, outputs)?;
-        for path in &self.output {
+        self.files.check_places(inputs, std::iter::empty())?;
+        for path in &self.files.motions {
             output::check_format(path)?;
         }
         let bar = output::spinner();
@@ -123,17 +116,16 @@ impl Respond {
             error => anyhow::Error::new(error).context(file.path.display().to_string()),
         })?;
         bar.set_message("writing");
-        let mut outputs =
-            Outputs { motions: self.output.clone(), report: self.report.clone(), picture: self.picture.clone() };
-        if self.clip.is_none() && outputs.is_empty() {
-            outputs = Outputs::in_folder("out".as_ref());
+        let mut files = self.files.clone();
+        if self.clip.is_none() && files.all().next().is_none() {
+            files = in_folder("out".as_ref());
         }
-        let notes = outputs.write(&file, &answer, &job)?;
+        let notes = write(&files, &file, &answer, &job)?;
         bar.finish_and_clear();
         for note in file.notes.iter().chain(&answer.notes).chain(&notes) {
             eprintln!("note: {note}");
         }
-        output::say(&words(&answer, &job, &outputs))
+        output::say(&words(&answer, &job, &files))
     }
 
     fn settings(&self) -> Settings {
@@ -154,47 +146,33 @@ impl Respond {
     }
 }
 
-/// Files to write.
-struct Outputs {
-    motions: Vec<PathBuf>,
-    report: Option<PathBuf>,
-    picture: Option<PathBuf>,
+/// What is written when nothing is asked for.
+fn in_folder(folder: &Path) -> Files {
+    Files {
+        motions: vec![folder.join("pushed.bvh"), folder.join("pushed.glb")],
+        report: Some(folder.join("report.json")),
+        picture: Some(folder.join("pushed.png")),
+    }
 }
 
-impl Outputs {
-    fn in_folder(folder: &Path) -> Outputs {
-        Outputs {
-            motions: vec![folder.join("pushed.bvh"), folder.join("pushed.glb")],
-            report: Some(folder.join("report.json")),
-            picture: Some(folder.join("pushed.png")),
-        }
+fn write(files: &Files, file: &MotionFile, answer: &Answer, job: &RespondJob) -> Result<Vec<Note>> {
+    let mut notes = Vec::new();
+    let body = body_shapes(&answer.reduction.shapes());
+    for path in &files.motions {
+        output::make_folder(path)?;
+        notes.extend(file.write(path, &answer.clip, &answer.rows, &body)?);
     }
-
-    fn is_empty(&self) -> bool {
-        self.motions.is_empty() && self.report.is_none() && self.picture.is_none()
+    files.write_report(&answer.report)?;
+    if let Some(path) = &files.picture {
+        let title = file.path.file_name().unwrap_or(file.path.as_os_str()).display().to_string();
+        let png = sheet(answer, file.body_parts()?, job, &title).to_png().context("the picture")?;
+        output::write_bytes(path, &png)?;
     }
-
-    fn write(&self, file: &MotionFile, answer: &Answer, job: &RespondJob) -> Result<Vec<Note>> {
-        let mut notes = Vec::new();
-        let body = body_shapes(&answer.reduction.shapes());
-        for path in &self.motions {
-            output::make_folder(path)?;
-            notes.extend(file.write(path, &answer.clip, &answer.rows, &body)?);
-        }
-        if let Some(path) = &self.report {
-            output::write_json(path, &answer.report)?;
-        }
-        if let Some(path) = &self.picture {
-            let title = file.path.file_name().unwrap_or(file.path.as_os_str()).display().to_string();
-            let png = sheet(answer, file.body_parts()?, job, &title).to_png().context("the picture")?;
-            output::write_bytes(path, &png)?;
-        }
-        Ok(notes)
-    }
+    Ok(notes)
 }
 
 /// What happened, in a few lines, and what to try next.
-fn words(answer: &Answer, job: &RespondJob, outputs: &Outputs) -> String {
+fn words(answer: &Answer, job: &RespondJob, files: &Files) -> String {
     let report = &answer.report;
     let mut lines = vec![format!(
         "{}: {:.0} kg, {:.2} m, {} frames at {:.0} fps",
@@ -236,13 +214,8 @@ fn words(answer: &Answer, job: &RespondJob, outputs: &Outputs) -> String {
     } else {
         lines.push(format!("stance ankles within {:.2} mm of the input's", report.stance_deviation_max_m * 1e3));
     }
-    let written = outputs.motions.iter().chain(&outputs.report).chain(&outputs.picture);
-    let written: Vec<String> = written.map(|path| path.display().to_string()).collect();
-    if written.is_empty() {
-        lines.push("nothing written; add -o pushed.bvh, --report r.json or --picture p.png".to_owned());
-    } else {
-        lines.push(format!("wrote {}", written.join(", ")));
-    }
+    let nothing = || "nothing written; add -o pushed.bvh, --report r.json or --picture p.png".to_owned();
+    lines.push(files.words(std::iter::empty()).unwrap_or_else(nothing));
     lines.push(format!("next: {}", suggestion(job)));
     lines.join("\n")
 }

@@ -1,15 +1,15 @@
 //! `sinew run` and `sinew replay`.
 
+use super::files::{Files, write_recording};
 use super::live::LiveArguments;
 use super::output;
 use super::session::Session;
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
-use sinew::motion::formats::{Format, WriteJob, write};
-use sinew::run::{Ran, RunJob, body_shapes, character_clip, csv, replay, run, scene_clip, sheet};
+use sinew::run::{Ran, RunJob, replay, run, sheet};
 use sinew::script::{Limits, ScriptHost};
 use sinew::stage::{Recording, Scene, Take};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `sinew run`.
 #[derive(Debug, clap::Args)]
@@ -57,19 +57,11 @@ pub(super) struct Replay {
 /// Where results go.
 #[derive(Debug, clap::Args)]
 pub(super) struct Out {
-    /// Where to write the motion: the whole scene as .glb, .gltf or .csv, one character as .bvh (see --character); may be
-    /// repeated.
-    #[arg(short, long, value_name = "OUT")]
-    output: Vec<PathBuf>,
-    /// Write only this character's motion.
+    #[command(flatten)]
+    files: Files,
+    /// Write only this character's motion; .bvh and .amc hold one.
     #[arg(long, value_name = "NAME")]
     character: Option<String>,
-    /// Where to write a report as JSON.
-    #[arg(long, value_name = "R.json")]
-    report: Option<PathBuf>,
-    /// Where to draw a picture.
-    #[arg(long, value_name = "P.png")]
-    picture: Option<PathBuf>,
 }
 
 pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
@@ -117,7 +109,7 @@ impl Run {
         }
         self.out.write(&ran, &for_picture)?;
         let title = self.scene.file_name().unwrap_or_default().display().to_string();
-        self.out.say(&ran, &title, self.take.as_deref())
+        self.out.say(&ran, &title, self.take.as_ref())
     }
 }
 
@@ -162,60 +154,32 @@ impl Out {
         inputs: impl Iterator<Item = &'a PathBuf>,
         more: impl Iterator<Item = &'a PathBuf>,
     ) -> Result<()> {
-        for path in &self.output {
-            if !is_csv(path) {
-                output::check_format(path)?;
-            }
-        }
-        output::check_places(inputs, self.output.iter().chain(&self.report).chain(&self.picture).chain(more))
+        self.files.check_recorded()?;
+        self.files.check_places(inputs, more)
     }
 
     fn write(&self, ran: &Ran, scene: &Scene) -> Result<()> {
         let subtitle = format!("{:.2} s, {} physics steps", ran.report.duration_s, ran.report.steps);
         self.write_motion(&ran.recording, scene, &subtitle)?;
-        self.write_report(&ran.report)
+        self.files.write_report(&ran.report)
     }
 
     /// Whether anything is asked for that needs the motion.
     pub(super) fn needs_motion(&self) -> bool {
-        !self.output.is_empty() || self.picture.is_some()
+        !self.files.motions.is_empty() || self.files.picture.is_some()
     }
 
-    /// Files that were written.
-    pub(super) fn written(&self) -> impl Iterator<Item = &Path> {
-        self.output.iter().chain(&self.report).chain(&self.picture).map(PathBuf::as_path)
-    }
-
-    pub(super) fn write_report(&self, report: &impl serde::Serialize) -> Result<()> {
-        match &self.report {
-            Some(path) => output::write_json(path, report),
-            None => Ok(()),
-        }
+    /// Where results go.
+    pub(super) fn files(&self) -> &Files {
+        &self.files
     }
 
     /// Motion files and the picture.
     pub(super) fn write_motion(&self, recording: &Recording, scene: &Scene, subtitle: &str) -> Result<()> {
-        for path in &self.output {
-            output::make_folder(path)?;
-            if is_csv(path) {
-                if self.character.is_some() {
-                    self.one_of(recording, path)?;
-                }
-                output::write_bytes(path, csv(recording, self.character.as_deref()).as_bytes())?;
-                continue;
-            }
-            let shows_scene = self.character.is_none() && matches!(Format::of(path), Some(Format::Glb | Format::Gltf));
-            let (clip, shapes) = if shows_scene {
-                scene_clip(recording)
-            } else {
-                let character = self.one_of(recording, path)?;
-                (character_clip(recording, character), body_shapes(&character.body, 0))
-            };
-            for note in write(path, &WriteJob { clip: &clip, source: None }, &shapes)? {
-                eprintln!("note: {note}");
-            }
+        for path in &self.files.motions {
+            write_recording(path, recording, self.character.as_deref())?;
         }
-        if let Some(path) = &self.picture {
+        if let Some(path) = &self.files.picture {
             let title = scene.name.clone().unwrap_or_else(|| scene.file_name().to_owned());
             let png = sheet(recording, scene, &title, subtitle).to_png().context("the picture")?;
             output::write_bytes(path, &png)?;
@@ -223,26 +187,7 @@ impl Out {
         Ok(())
     }
 
-    /// The character that a file of one is to hold.
-    fn one_of<'a>(&self, recording: &'a Recording, path: &Path) -> Result<&'a sinew::stage::RecordedCharacter> {
-        let characters = &recording.characters;
-        let names: Vec<&str> = characters.iter().map(|character| character.name.as_str()).collect();
-        match (&self.character, &characters[..]) {
-            (Some(name), _) => characters
-                .iter()
-                .find(|character| character.name == *name)
-                .with_context(|| format!("no character `{name}`; there are {}", names.join(", "))),
-            (None, [one]) => Ok(one),
-            (None, []) => bail!("{}: the scene has no character; write .glb or .csv", path.display()),
-            (None, _) => bail!(
-                "{}: this format holds one character; add --character NAME of {}, or write .glb",
-                path.display(),
-                names.join(", ")
-            ),
-        }
-    }
-
-    fn say(&self, ran: &Ran, title: &str, take: Option<&Path>) -> Result<()> {
+    fn say(&self, ran: &Ran, title: &str, take: Option<&PathBuf>) -> Result<()> {
         let report = &ran.report;
         let mut lines =
             vec![format!("{title}: {:.2} s, {} steps, hash {}", report.duration_s, report.steps, report.hash)];
@@ -262,6 +207,9 @@ impl Out {
                 character.hips_height_end_m, character.hips_height_min_m, character.steps
             ));
         }
+        for (name, character) in &report.characters {
+            lines.extend(character.reaches.iter().map(|reach| format!("{name} reached: {}", reach.words())));
+        }
         for (name, actor) in &report.actors {
             let latency = actor.latency_ms.map_or(String::new(), |latency| {
                 format!(", {:.1} ms to a frame ({:.1} ms for 99 %)", latency.p50, latency.p99)
@@ -272,11 +220,7 @@ impl Out {
                 actor.received, actor.late, actor.rejected, actor.lost
             ));
         }
-        let written = self.written().chain(take);
-        let written: Vec<String> = written.map(|path| path.display().to_string()).collect();
-        if !written.is_empty() {
-            lines.push(format!("wrote {}", written.join(", ")));
-        }
+        lines.extend(self.files.words(take.into_iter()));
         output::say(&lines.join("\n"))
     }
 }
@@ -297,10 +241,6 @@ fn first_difference(one: &Take, other: &Take) -> Option<u64> {
 
 /// Events that are printed.
 const MOST_LINES: usize = 30;
-
-fn is_csv(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
-}
 
 /// A progress bar on a terminal, nothing when piped.
 fn bar() -> ProgressBar {

@@ -79,7 +79,7 @@ impl Serve {
             let subtitle = format!("{:.2} s, {} physics steps, served", run.duration_s, run.steps);
             self.out.write_motion(recording, &for_picture, &subtitle)?;
         }
-        self.out.write_report(&served.report)?;
+        self.out.files().write_report(&served.report)?;
         let clients = &served.report.clients;
         let mut lines = vec![
             format!("{}: {:.2} s, {} steps, hash {}", self.scene.display(), run.duration_s, run.steps, run.hash),
@@ -92,11 +92,7 @@ impl Serve {
                 clients.orders_dropped
             ),
         ];
-        let written = self.out.written().chain(self.take.as_deref());
-        let written: Vec<String> = written.map(|path| path.display().to_string()).collect();
-        if !written.is_empty() {
-            lines.push(format!("wrote {}", written.join(", ")));
-        }
+        lines.extend(self.out.files().words(self.take.iter()));
         output::say(&lines.join("\n"))
     }
 

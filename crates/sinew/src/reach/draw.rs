@@ -1,9 +1,10 @@
 //! A reach as a picture.
 
 use super::job::Reached;
-use crate::run::figure;
+use crate::run::{custom, figure};
 use glam::DVec3;
 use sinew_picture::{Camera, Capsule, Figure, Filmstrip, Panel, Plot, Series, Shade, Sheet, Style};
+use sinew_world::Form;
 
 /// Panels of a strip.
 const PANELS: usize = 12;
@@ -20,7 +21,7 @@ pub fn sheet(reached: &Reached, title: &str) -> Sheet {
     };
     Sheet {
         title: title.to_owned(),
-        subtitle: words(reached),
+        subtitle: reached.report.words(),
         pieces: vec![strip.into(), speeds(reached).into()],
         ..Sheet::default()
     }
@@ -75,7 +76,8 @@ fn panel(reached: &Reached, frame: usize, caption: Option<String>) -> Panel {
         follow = Some(pose.hips_position);
     }
     for prop in &recording.props {
-        all.push(Capsule::ball(prop.places[frame].0, 0.045, Shade::Object));
+        let Form::Ball { radius_m } = prop.solid.form else { continue };
+        all.push(Capsule::ball(prop.places[frame].0, radius_m, prop.rgb.map_or(Shade::Object, custom)));
     }
     Panel {
         time_secs: recording.time_secs(frame),
@@ -84,22 +86,6 @@ fn panel(reached: &Reached, frame: usize, caption: Option<String>) -> Panel {
         caption: caption.unwrap_or_default(),
         ..Panel::default()
     }
-}
-
-fn words(reached: &Reached) -> String {
-    let report = &reached.report;
-    let steps: Vec<String> =
-        report.steps.iter().map(|step| format!("{} {} {:.2} m", step.kind, step.foot, step.length_m)).collect();
-    format!(
-        "{}; {} in {:.2} s; twist {:.0}°, swing {:.0}°, squat {:.2} m; {}",
-        report.reason.clone().unwrap_or_else(|| format!("reached within {:.2} mm", report.hand_error_m * 1e3)),
-        report.hands.join(" and "),
-        report.duration_s,
-        report.twist_deg,
-        report.swing_deg,
-        report.squat_m,
-        if steps.is_empty() { "no step".to_owned() } else { steps.join(", ") }
-    )
 }
 
 fn speeds(reached: &Reached) -> Plot {

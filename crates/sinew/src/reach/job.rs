@@ -1,11 +1,13 @@
 //! From a target to a motion.
 
+use super::meter::{Instant, ReachMeter};
 use super::report::ReachReport;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, ReductionError};
 use sinew_motion::formats::MotionFile;
-use sinew_reach::{Goal, Reacher, Start, Style, StyleError, standing};
-use sinew_stage::{RecordedCharacter, RecordedProp, Recording};
+use sinew_motion::resample;
+use sinew_reach::{Goal, Obstacle, Reacher, Start, Style, StyleError, standing};
+use sinew_stage::{HAND_OVER_SECS, MotionSource, RecordedCharacter, RecordedProp, Recording, handed_over};
 use sinew_world::{Form, Solid, hips_over_soles_m};
 
 /// Which hand reaches.
@@ -29,6 +31,15 @@ pub struct MovingPoint {
     pub secs: f64,
 }
 
+/// A ball in the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ball {
+    /// Its centre, as [`ReachJob::target`] \[m\].
+    pub at: DVec3,
+    /// Its radius \[m\].
+    pub radius_m: f64,
+}
+
 /// What is to be reached, by whom, and how. Places are in the character's facing frame at the start (x to its left, y up, z
 /// forward), with the origin on the floor between the feet.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,12 +54,16 @@ pub struct ReachJob {
     pub right: Option<DVec3>,
     /// Where the target goes; before the first point it is at `target`.
     pub moving: Vec<MovingPoint>,
+    /// What the arms keep clear of.
+    pub avoid: Vec<Ball>,
     /// Mass and height of the body.
     pub person: Person,
     /// How it reaches.
     pub style: Style,
     /// When the clip is left for the reach \[s\], where there is a clip.
     pub from_secs: f64,
+    /// Stand up again afterwards; out of a clip, go on with it.
+    pub back: bool,
 }
 
 /// A reach: the motion, and what came of it.
@@ -104,13 +119,20 @@ const MOST_SECS: f64 = 600.0;
 /// When there is no target, a number is out of range, or the clip holds no body.
 pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, ReachError> {
     job.check()?;
-    let (body, start) = match clip {
-        Some(clip) => from_clip(job, clip)?,
-        None => {
-            let body = Body::standard(job.person.mass_kg, job.person.height_m.unwrap_or(1.7));
-            let pose = standing(&body, DVec3::ZERO, 0.0);
-            (body, Start { pose, before: None })
+    let (body, mut clip) = match clip {
+        Some(clip) => {
+            let (body, motion) = from_clip(job, clip)?;
+            (body, Some(motion))
         }
+        None => (Body::standard(job.person.mass_kg, job.person.height_m.unwrap_or(1.7)), None),
+    };
+    let start = match &clip {
+        // At its beginning nothing was before.
+        Some(clip) => {
+            let before = (job.from_secs >= 1.0 / HZ).then(|| (clip.pose_at(-1.0 / HZ), 1.0 / HZ));
+            Start { pose: clip.pose_at(0.0), before }
+        }
+        None => Start { pose: standing(&body, DVec3::ZERO, 0.0), before: None },
     };
     let facing_rad = facing(&start.pose);
     let place = between_feet(&body, &start.pose);
@@ -118,9 +140,15 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
     let hand = job.chosen_hand();
     let first = |side: usize| -> Option<DVec3> {
         let own = if side == 0 { job.left } else { job.right };
-        own.or((hand == side && job.left.is_none() && job.right.is_none()).then_some(job.target?)).map(world)
+        let of_one = || job.target.filter(|_| hand == side && job.left.is_none() && job.right.is_none());
+        own.or_else(of_one).map(world)
     };
     let mut reacher = Reacher::new(&body, &job.style, &start)?;
+    let obstacles = job.avoid.iter().map(|ball| {
+        let at = world(ball.at);
+        Obstacle::Capsule { from: at, to: at, radius_m: ball.radius_m }
+    });
+    reacher.set_obstacles(&obstacles.collect::<Vec<_>>());
     let mut goal = Goal { left: first(0), right: first(1) };
     let targets: Vec<(usize, DVec3)> =
         [(0, goal.left), (1, goal.right)].into_iter().filter_map(|(s, t)| Some((s, t?))).collect();
@@ -131,6 +159,7 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
     let last_move = job.moving.iter().map(|point| point.secs).fold(0.0, f64::max);
     let mut end = reacher.done_secs().max(last_move) + HOLD_SECS;
     let mut poses: Vec<Pose> = Vec::new();
+    let mut meter = ReachMeter::default();
     let mut places: Vec<Vec<(DVec3, DQuat)>> = vec![Vec::new(); targets.len()];
     let mut frame = 0;
     while frame as f64 <= end * HZ + 0.5 && frame as f64 <= MOST_SECS * HZ {
@@ -143,29 +172,62 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
             reacher.follow(&goal);
             end = reacher.done_secs().max(last_move) + HOLD_SECS;
         }
-        poses.push(reacher.pose_at(secs));
+        let pose = reacher.pose_at(secs);
+        meter.watch(&Instant { reacher: &reacher, secs, goal, body: &body, pose: &pose }, 1.0 / HZ);
+        poses.push(pose);
         for (index, (side, _)) in targets.iter().enumerate() {
             let at = if *side == 0 { goal.left } else { goal.right };
             places[index].push((at.unwrap_or_default(), DQuat::IDENTITY));
         }
         frame += 1;
     }
-    let report = ReachReport::of(&body, &reacher, &poses, &goal, HZ);
-    let props = targets.iter().zip(places).map(|((side, _), places)| RecordedProp {
-        name: if targets.len() == 1 { "target".to_owned() } else { ["leftTarget", "rightTarget"][*side].to_owned() },
-        solid: Solid::new(Form::Ball { radius_m: TARGET_M }),
-        rgb: Some([0xd0, 0x40, 0x40]),
-        is_sensor: false,
-        places,
+    let report = meter.report(&reacher, 0.0, reacher.done_secs());
+    if job.back {
+        way_back(&mut reacher, clip.as_mut(), frame, &mut poses);
+    }
+    let frames = poses.len();
+    let ball = |name: String, radius_m: f64, rgb: [u8; 3], mut places: Vec<(DVec3, DQuat)>| {
+        let last = places.last().copied().unwrap_or_default();
+        places.resize(frames, last);
+        RecordedProp { name, solid: Solid::new(Form::Ball { radius_m }), rgb: Some(rgb), is_sensor: false, places }
+    };
+    let goals = targets.iter().zip(places).map(|((side, _), places)| {
+        let name = if targets.len() == 1 { "target" } else { ["leftTarget", "rightTarget"][*side] };
+        ball(name.to_owned(), TARGET_M, [0xd0, 0x40, 0x40], places)
     });
-    let props = props.collect();
+    let avoided = job.avoid.iter().enumerate().map(|(index, one)| {
+        ball(format!("avoided{}", index + 1), one.radius_m, [0x80, 0x80, 0x80], vec![(world(one.at), DQuat::IDENTITY)])
+    });
+    let props = goals.chain(avoided).collect();
     let character = RecordedCharacter { name: "body".to_owned(), body, rgb: None, poses, shapes: Vec::new() };
-    let frames = character.poses.len();
     Ok(Reached {
         report,
         recording: Recording { motion_hz: HZ, frames, characters: vec![character], props },
         facing_rad,
     })
+}
+
+/// How long what was before is shown afterwards \[s\].
+const AFTERWARDS_SECS: f64 = 2.0;
+
+/// Lets go and stands up from a frame on; where there is a clip, goes on with it from where it was left.
+fn way_back(reacher: &mut Reacher, clip: Option<&mut MotionSource>, frame: usize, poses: &mut Vec<Pose>) {
+    let secs = |frame: usize| frame as f64 / HZ;
+    reacher.advance(secs(frame));
+    reacher.release();
+    let stands = (reacher.done_secs() * HZ).ceil() as usize;
+    poses.extend((frame..stands).map(|frame| reacher.pose_at(secs(frame))));
+    let standing = reacher.pose_at(secs(stands));
+    let Some(clip) = clip else {
+        poses.push(standing);
+        return;
+    };
+    clip.resume(0.0, secs(stands), &standing);
+    let last = stands + ((HAND_OVER_SECS + AFTERWARDS_SECS) * HZ) as usize;
+    poses.extend((stands..last).map(|frame| {
+        let since = secs(frame) - secs(stands);
+        handed_over(&reacher.pose_at(secs(frame)), &clip.pose_at(secs(frame)), since)
+    }));
 }
 
 /// Radius of a target's ball in pictures and files \[m\].
@@ -182,7 +244,7 @@ impl ReachJob {
             }
         }
         if places.count() == 0 {
-            return wrong("nothing to reach; give a target X:Y:Z in metres: x to the left, y up, z forward".to_owned());
+            return wrong("nothing to reach; give --target X:Y:Z in metres: x to the left, y up, z forward".to_owned());
         }
         for point in &self.moving {
             if !(0.0..=MOST_SECS).contains(&point.secs) {
@@ -190,7 +252,7 @@ impl ReachJob {
             }
         }
         if self.moving.windows(2).any(|pair| pair[1].secs <= pair[0].secs) {
-            return wrong("the times of a moving target must grow from point to point".to_owned());
+            return wrong("the times of --moving must grow from point to point".to_owned());
         }
         let Person { mass_kg, height_m } = self.person;
         let height_m = height_m.unwrap_or(1.7);
@@ -226,24 +288,23 @@ impl ReachJob {
     }
 }
 
-/// The body of a clip and its pose at a time, with how it moves, standing on the floor at height 0.
-fn from_clip(job: &ReachJob, file: &MotionFile) -> Result<(Body, Start), ReachError> {
+/// The body of a clip, and its motion from the time at which it is left, standing there on the floor at height 0.
+fn from_clip(job: &ReachJob, file: &MotionFile) -> Result<(Body, MotionSource), ReachError> {
     let parts = file.body_parts()?;
-    let reduction = Reduction::new(&file.clip, parts, file.stature_m, job.person)?;
-    let frame_time = file.clip.frame_time_secs();
-    let last = file.clip.frames().saturating_sub(1);
-    let at = ((job.from_secs / frame_time).round().max(0.0) as usize).min(last);
-    let before = at.saturating_sub(((1.0 / HZ) / frame_time).round().max(1.0) as usize);
-    let mut pose = reduction.pose(&file.clip.world(at));
-    let mut earlier = reduction.pose(&file.clip.world(before));
-    let lift = hips_over_soles_m(reduction.body(), &pose) - pose.hips_position.y;
-    for pose in [&mut pose, &mut earlier] {
-        pose.hips_position.y += lift;
+    let ends_secs = file.clip.duration_secs();
+    if job.from_secs > ends_secs + 0.5 / HZ {
+        let text = format!("--from: the clip ends at {ends_secs:.2} s; leave it before, not at {} s", job.from_secs);
+        return Err(ReachError::Target(text));
     }
+    let reduction = Reduction::new(&file.clip, parts, file.stature_m, job.person)?;
+    let clip = resample(&file.clip, HZ);
+    let mut poses: Vec<Pose> = (0..clip.frames()).map(|frame| reduction.pose(&clip.world(frame))).collect();
+    let start = MotionSource::of_poses(poses.clone(), HZ, job.from_secs).pose_at(0.0);
+    let lift = hips_over_soles_m(reduction.body(), &start) - start.hips_position.y;
+    poses.iter_mut().for_each(|pose| pose.hips_position.y += lift);
     let mut body = reduction.body().clone();
-    body.widen_limits(&pose);
-    let ago = (at - before) as f64 * frame_time;
-    Ok((body, Start { pose, before: (ago > 0.0).then_some((earlier, ago)) }))
+    body.widen_limits(&start);
+    Ok((body, MotionSource::of_poses(poses, HZ, job.from_secs)))
 }
 
 /// Where a pose faces \[rad about +Y from +Z to +X\].

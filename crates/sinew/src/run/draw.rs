@@ -57,7 +57,8 @@ fn worn(character: &RecordedCharacter, pose: &Pose, frame: usize) -> Vec<Capsule
     all
 }
 
-fn custom([red, green, blue]: [u8; 3]) -> Shade {
+/// A scene's colour in a picture.
+pub(crate) fn custom([red, green, blue]: [u8; 3]) -> Shade {
     Shade::Custom(Colour::hex(u32::from(red) << 16 | u32::from(green) << 8 | u32::from(blue)))
 }
 

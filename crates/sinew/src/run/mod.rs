@@ -4,10 +4,12 @@ mod actors;
 mod draw;
 mod export;
 mod job;
+mod reaches;
 mod report;
 mod spent;
 
 pub use actors::{ActorReport, LatencyReport};
+pub(crate) use draw::custom;
 pub use draw::{figure, sheet};
 pub use export::{body_shapes, character_clip, csv, scene_clip};
 #[cfg(feature = "session")]

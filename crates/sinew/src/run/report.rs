@@ -1,7 +1,9 @@
 //! What happened in a run, in numbers.
 
 use super::actors::{self, ActorReport};
+use super::reaches::ReachWatch;
 use super::spent::{Meter, SpentReport};
+use crate::reach::ReachReport;
 use serde::Serialize;
 use sinew_live::Performers;
 use sinew_stage::{Event, Stage};
@@ -49,12 +51,17 @@ pub struct CharacterReport {
     pub hit_impulse_max_n_s: f64,
     /// Times that it was put back because its body went wrong.
     pub resets: u64,
+    /// Every reach, in order, the first thousand.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub reaches: Vec<ReachReport>,
     /// What pins spent, by part, and all together under `all`; the weight that they carry included.
     pub pins: BTreeMap<String, SpentReport>,
     /// What else held parts from outside: physics switched off, planes, holds on what does not move.
     pub held: BTreeMap<String, SpentReport>,
     #[serde(skip)]
     meters: [Meter; 2],
+    #[serde(skip)]
+    reach: ReachWatch,
     #[serde(skip)]
     in_the_air: [u64; 2],
 }
@@ -94,6 +101,7 @@ impl RunReport {
             let step_secs = stage.world().settings().step_secs();
             character.meters[0].watch(seen, step_secs, |spent| spent.pin);
             character.meters[1].watch(seen, step_secs, |spent| spent.held);
+            character.reach.watch(stage, index, &mut character.reaches);
             let is_own = |entity: Entity| matches!(entity, Entity::Part(owner, _) if owner == index);
             for contact in &frame.contacts {
                 if is_own(contact.a) != is_own(contact.b) && contact.a != Entity::Floor {

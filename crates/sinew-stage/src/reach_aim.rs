@@ -1,0 +1,145 @@
+//! What a reach is for, in the world: points, surfaces of props, and what is in the way.
+
+use crate::Stage;
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::Node;
+use sinew_control::{ReachHand, ReachOrder};
+use sinew_reach::{Goal, Obstacle};
+use sinew_world::{BodyState, Entity, Form, Frame, Solid};
+
+/// Where a hand is to come.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Aimed {
+    Point(DVec3),
+    /// A prop's centre and how far from it, world \[m\].
+    Prop(usize, DVec3),
+    /// Where the centre of a prop is to come that the hand holds, world \[m\].
+    Held(usize, DVec3),
+}
+
+/// A hand's own thickness, between its centre and what it touches \[m\].
+const PALM_M: f64 = 0.035;
+
+/// Both hands' targets now.
+pub(crate) fn goal(aimed: &[Option<Aimed>; 2], frame: &Frame, character: usize) -> Goal {
+    let at = |side: usize| match aimed[side]? {
+        Aimed::Point(point) => Some(point),
+        Aimed::Prop(prop, offset) => Some(frame.props.get(prop)?.centre + offset),
+        Aimed::Held(prop, point) => {
+            let hand = frame.characters.get(character)?.part(HANDS[side]);
+            Some(point + (hand.centre - frame.props.get(prop)?.centre))
+        }
+    };
+    Goal { left: at(0), right: at(1) }
+}
+
+/// Left and right.
+pub(crate) const HANDS: [Node; 2] = [Node::LeftHand, Node::RightHand];
+
+impl Stage {
+    /// Where each hand is to come.
+    pub(crate) fn aim_of(&self, index: usize, order: &ReachOrder) -> Result<[Option<Aimed>; 2], String> {
+        let character = self.world.frame().characters.get(index).ok_or("the character is not in the world")?;
+        if order.left_m.is_some() || order.right_m.is_some() {
+            let point = |place: Option<[f64; 3]>| place.map(|place| Aimed::Point(place.into()));
+            return Ok([point(order.left_m), point(order.right_m)]);
+        }
+        let left = character.left();
+        let middle = |hand: ReachHand, target: DVec3| match hand {
+            ReachHand::Left => 0,
+            ReachHand::Right => 1,
+            _ => usize::from((target - character.parts[0].position).dot(left) < 0.06),
+        };
+        if let Some(point) = order.target_m {
+            let point = DVec3::from(point);
+            let mut aimed = [None; 2];
+            let side = middle(order.hand, point);
+            // What a hand holds is what is to arrive.
+            let mut held = self.world.held().filter(|held| held.character == index && held.node == HANDS[side]);
+            aimed[side] = Some(match held.next().map(|held| held.object) {
+                Some(Entity::Prop(prop)) => Aimed::Held(prop, point),
+                _ => Aimed::Point(point),
+            });
+            return Ok(aimed);
+        }
+        let name = order.object.as_deref().unwrap_or_default();
+        let prop = self.cast.prop(name).ok_or_else(|| format!("no object `{name}`"))?;
+        let state = self.world.frame().props.get(prop).ok_or("it is not in the world")?;
+        let solid = self.scene.props.values().nth(prop).and_then(crate::scene::PropSpec::solid);
+        let surface = |direction: DVec3| {
+            let depth = solid.as_ref().map_or(0.0, |solid| depth(solid, state, direction));
+            direction * (depth + PALM_M)
+        };
+        if order.hand == ReachHand::Both {
+            return Ok([Some(Aimed::Prop(prop, surface(left))), Some(Aimed::Prop(prop, surface(-left)))]);
+        }
+        let side = middle(order.hand, state.centre);
+        let shoulder = character.part([Node::LeftUpperArm, Node::RightUpperArm][side]).position;
+        // From the shoulder's side, rather from the side than from above.
+        let mut from = shoulder - state.centre;
+        from.y *= 0.35;
+        let mut aimed = [None; 2];
+        aimed[side] = Some(Aimed::Prop(prop, surface(from.normalize_or(DVec3::Y))));
+        Ok(aimed)
+    }
+
+    /// Props that arms keep clear of, where they are now.
+    pub(crate) fn obstacles(&self, names: &[String]) -> Result<Vec<Obstacle>, String> {
+        let mut all = Vec::new();
+        for name in names {
+            let prop = self.cast.prop(name).ok_or_else(|| format!("no object `{name}`"))?;
+            let (Some(state), Some(solid)) = (
+                self.world.frame().props.get(prop),
+                self.scene.props.values().nth(prop).and_then(crate::scene::PropSpec::solid),
+            ) else {
+                continue;
+            };
+            all.extend(obstacles_of(&solid, state));
+        }
+        Ok(all)
+    }
+}
+
+/// How far a prop's surface is from its centre in a direction \[m\].
+pub(crate) fn depth(solid: &Solid, state: &BodyState, direction: DVec3) -> f64 {
+    let turn = state.rotation * solid.rotation;
+    let local = turn.conjugate() * direction;
+    match &solid.form {
+        Form::Ball { radius_m } => *radius_m,
+        Form::Capsule { radius_m, length_m } => radius_m + 0.5 * length_m * local.y.abs(),
+        Form::Box { size_m } => {
+            // Where the ray leaves the box.
+            let half = *size_m * 0.5;
+            let share = |axis: usize| half[axis] / local[axis].abs().max(1e-9);
+            share(0).min(share(1)).min(share(2))
+        }
+        Form::Ring { radius_m, tube_m } => radius_m + tube_m,
+        Form::Hull { points_m } => points_m.iter().map(|point| point.dot(local)).fold(0.0, f64::max),
+        Form::Mesh { points_m, .. } => points_m.iter().map(|point| point.dot(local)).fold(0.0, f64::max),
+    }
+}
+
+/// A prop as what must not be touched; a ring as its hull's box, meshes and hulls by the box around them.
+fn obstacles_of(solid: &Solid, state: &BodyState) -> Vec<Obstacle> {
+    let centre = state.position + state.rotation * solid.centre;
+    let turn: DQuat = (state.rotation * solid.rotation).normalize();
+    let around = |points: &[DVec3]| {
+        let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        Obstacle::Box { centre: centre + turn * ((low + high) * 0.5), turn, half_m: (high - low) * 0.5 }
+    };
+    vec![match &solid.form {
+        Form::Ball { radius_m } => Obstacle::Capsule { from: centre, to: centre, radius_m: *radius_m },
+        Form::Capsule { radius_m, length_m } => {
+            let half = turn * DVec3::Y * (0.5 * length_m);
+            Obstacle::Capsule { from: centre - half, to: centre + half, radius_m: *radius_m }
+        }
+        Form::Box { size_m } => Obstacle::Box { centre, turn, half_m: *size_m * 0.5 },
+        Form::Ring { radius_m, tube_m } => {
+            let reach = radius_m + tube_m;
+            Obstacle::Box { centre, turn, half_m: DVec3::new(reach, *tube_m, reach) }
+        }
+        Form::Hull { points_m } => around(points_m),
+        Form::Mesh { points_m, .. } => around(points_m),
+    }]
+}

@@ -1,0 +1,19 @@
+//! From standing after a reach back into what was before.
+
+use sinew_body::humanoid::{Node, Pose, exp, log};
+
+/// How long handing over takes \[s\].
+pub const HAND_OVER_SECS: f64 = 0.6;
+
+/// The pose between one source and the next, so long after the next one has begun \[s\]; smooth in velocity and acceleration.
+pub fn handed_over(from: &Pose, to: &Pose, since_secs: f64) -> Pose {
+    let share = (since_secs / HAND_OVER_SECS).clamp(0.0, 1.0);
+    let share = share * share * share * (10.0 + share * (6.0 * share - 15.0));
+    let mut pose = *from;
+    pose.hips_position = from.hips_position.lerp(to.hips_position, share);
+    for node in Node::ALL {
+        let (one, other) = (from.world[node.index()], to.world[node.index()]);
+        pose.world[node.index()] = (one * exp(log(one.conjugate() * other) * share)).normalize();
+    }
+    pose
+}

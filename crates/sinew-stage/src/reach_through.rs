@@ -1,0 +1,45 @@
+//! Hands pass through what they reach for: they have no fingers to close around it, and would push it away, or be kept off it.
+
+use crate::Stage;
+use crate::reach_aim::{Aimed, HANDS, depth};
+use crate::scene::PropSpec;
+use sinew_world::Entity;
+
+/// How far a hand's centre is from a prop's surface when it is clear of it \[m\]: more than half a hand.
+const CLEAR_M: f64 = 0.13;
+
+impl Stage {
+    /// The hands that are aimed at props pass through them from now on.
+    pub(crate) fn pass_through(&mut self, index: usize, aimed: &[Option<Aimed>; 2]) {
+        for (side, aimed) in aimed.iter().enumerate() {
+            let Some(Aimed::Prop(prop, _)) = *aimed else { continue };
+            self.world.set_passing_prop(index, HANDS[side], prop, true);
+            let through = &mut self.actors[index].through;
+            if !through.contains(&(side, prop)) {
+                through.push((side, prop));
+            }
+        }
+    }
+
+    /// Hands that reach for something else by now, or for nothing, push again what they are clear of.
+    pub(crate) fn end_passing(&mut self, index: usize) {
+        let mut through = std::mem::take(&mut self.actors[index].through);
+        through.retain(|&(side, prop)| {
+            let stays = self.is_aimed(index, side, prop) || !self.is_clear(index, side, prop);
+            if !stays {
+                self.world.set_passing_prop(index, HANDS[side], prop, false);
+            }
+            stays
+        });
+        self.actors[index].through = through;
+    }
+
+    fn is_clear(&self, index: usize, side: usize, prop: usize) -> bool {
+        let frame = self.world.frame();
+        let (Some(character), Some(state)) = (frame.characters.get(index), frame.props.get(prop)) else { return true };
+        let away = character.part(HANDS[side]).centre - state.centre;
+        let solid = self.scene.props.values().nth(prop).and_then(PropSpec::solid);
+        let depth = solid.map_or(0.0, |solid| depth(&solid, state, away.normalize_or_zero()));
+        !self.world.is_attached(index, HANDS[side], Entity::Prop(prop)) && away.length() > depth + CLEAR_M
+    }
+}

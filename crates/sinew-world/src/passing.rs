@@ -1,0 +1,81 @@
+//! What passes through each other instead of colliding.
+
+use crate::engine::untag;
+use crate::{Entity, World};
+use rapier3d_f64::prelude::*;
+use sinew_body::humanoid::Node;
+
+/// Tells the library which parts pass through what.
+#[derive(Default)]
+pub(crate) struct Passing {
+    /// By character and part: a bit for each of its own parts that it passes through.
+    pub own: Vec<[u32; Node::COUNT]>,
+    /// Characters' parts and the props that they pass through.
+    pub props: Vec<(usize, Node, usize)>,
+}
+
+impl Passing {
+    /// Whether a part passes through anything.
+    fn asks(&self, character: usize, node: Node) -> bool {
+        self.own.get(character).is_some_and(|masks| masks[node.index()] != 0)
+            || self.props.iter().any(|(owner, part, _)| (*owner, *part) == (character, node))
+    }
+}
+
+impl PhysicsHooks for Passing {
+    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
+        let entity = |handle: ColliderHandle| untag(context.colliders.get(handle)?.user_data);
+        match (entity(context.collider1), entity(context.collider2)) {
+            (Some(Entity::Part(one, node)), Some(Entity::Part(other, part))) if one == other => {
+                let passes = self.own.get(one).is_some_and(|masks| masks[node.index()] & 1 << part.index() != 0);
+                (!passes).then(SolverFlags::default)
+            }
+            (Some(Entity::Part(owner, node)), Some(Entity::Prop(prop)))
+            | (Some(Entity::Prop(prop)), Some(Entity::Part(owner, node))) => {
+                // The two touch, without a force.
+                let passes = self.props.contains(&(owner, node, prop));
+                Some(if passes { SolverFlags::empty() } else { SolverFlags::default() })
+            }
+            _ => Some(SolverFlags::default()),
+        }
+    }
+}
+
+impl World {
+    /// Which of its own parts pass through each other instead of colliding: by [`Node::index`], a bit for each other part; pairs
+    /// are named from both sides.
+    pub fn set_passing(&mut self, character: usize, masks: [u32; Node::COUNT]) {
+        let Some(passing) = self.engine.passing.own.get_mut(character) else { return };
+        let before = std::mem::replace(passing, masks);
+        for node in Node::ALL {
+            if (before[node.index()] == 0) != (masks[node.index()] == 0) {
+                self.let_ask(character, node);
+            }
+        }
+    }
+
+    /// A part passes through a prop from now on, or pushes it again. The two go on touching in the [`Frame`](crate::Frame). It is
+    /// for hands: they have no fingers that close around what they reach for.
+    pub fn set_passing_prop(&mut self, character: usize, node: Node, prop: usize, on: bool) {
+        let props = &mut self.engine.passing.props;
+        let pair = (character, node, prop);
+        match props.iter().position(|other| *other == pair) {
+            None if on => props.push(pair),
+            Some(at) if !on => drop(props.swap_remove(at)),
+            _ => return,
+        }
+        self.let_ask(character, node);
+    }
+
+    /// The library looks at every contact of a part that asks first anew in each step: only those ask that must.
+    fn let_ask(&mut self, character: usize, node: Node) {
+        let asks = self.engine.passing.asks(character, node);
+        let Some(one) = self.characters.get(character) else { return };
+        if let Some(collider) = self.engine.colliders.get_mut(one.colliders[node.index()]) {
+            let hooks = if asks { ActiveHooks::FILTER_CONTACT_PAIRS } else { ActiveHooks::empty() };
+            if collider.active_hooks() != hooks {
+                collider.set_active_hooks(hooks);
+            }
+        }
+    }
+}
