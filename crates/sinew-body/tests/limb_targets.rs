@@ -172,6 +172,49 @@ fn half_a_million_hands_and_feet_are_placed_and_turned_within_the_limits() {
     assert!(stretched < 80_000, "{stretched}");
 }
 
+/// A body whose bones are not along their nodes' axes, as captured ones are not: up to a tenth of their length beside them.
+fn crooked(dice: &mut Dice) -> Body {
+    let standard = Body::standard(80.0, 1.7);
+    let mut offsets = Node::ALL.map(|node| standard.link(node).offset);
+    let tips = Node::ALL.map(|node| standard.link(node).tip);
+    for limb in Limb::ALL {
+        for node in &limb.nodes()[1..] {
+            let beside = 0.1 * offsets[node.index()].length();
+            offsets[node.index()] += DVec3::new(dice.between(-beside, beside), 0.0, dice.between(-beside, beside));
+        }
+    }
+    Body::shaped(80.0, 1.7, &offsets, &tips)
+}
+
+#[test]
+fn hands_and_feet_of_crooked_limbs_are_placed_and_turned_too() {
+    let mut dice = Dice(11);
+    let (mut missed, mut count) = (0, 0);
+    for _ in 0..50 {
+        let body = crooked(&mut dice);
+        for index in 0..400 {
+            let limb = Limb::ALL[index % 4];
+            let base = base(&mut dice);
+            let turns = dice.limb(&body, limb);
+            let goal = goal(&body, limb, &base, DVec3::ZERO);
+            let (target, turned) = forward(&body, limb, &base, turns, goal.effector);
+            let [upper, lower, _] = dice.limb(&body, limb);
+            let goal = LimbGoal { target, near: [upper, lower], ..goal };
+            let solved = solve_limb_turned(&body, limb, &goal, turned).unwrap();
+            let wrist = (target - turned * goal.effector - goal.joint).length();
+            let [_, lower_node, end_node] = limb.nodes();
+            let longest = body.link(lower_node).offset.length() + body.link(end_node).offset.length();
+            count += 1;
+            // Beyond 98 % of the bones' length, which is less than their reach for crooked ones, the limb may fall short.
+            if wrist < 0.98 * longest && (solved.turns.miss_m > 1e-9 || solved.end_miss_rad > 1e-8) {
+                missed += 1;
+            }
+        }
+    }
+    // Where bend and turn do not come to agree, or no swivel is found, place or turn is missed: measured 7 of a thousand.
+    assert!(missed * 100 < count, "{missed} of {count}");
+}
+
 /// The nearest that a limb's effector comes to a point \[m\] as far as a search finds: from many of its turns, the best of them
 /// bettered by small changes of each angle.
 fn nearest_by_search(body: &Body, limb: Limb, goal: &LimbGoal, dice: &mut Dice) -> f64 {

@@ -56,6 +56,33 @@ pub fn solve_limb_turned(body: &Body, limb: Limb, goal: &LimbGoal, world_from_en
         return None;
     }
     let world_from_end = world_from_end.normalize();
+    let mut found = turned_once(body, limb, goal, world_from_end)?;
+    // A forearm whose wrist is beside its own line, as captured ones are, moves the wrist as it turns about itself: the bend is found
+    // for the turn that came out, until both agree. Each round leaves a few hundredths of what was missed.
+    let wrist = body.link(limb.nodes()[2]).offset;
+    if limb.is_leg() || wrist.x * wrist.x + wrist.z * wrist.z <= ON_LINE_M * ON_LINE_M {
+        return Some(found);
+    }
+    for _ in 0..ROUNDS {
+        let goal = LimbGoal { near: [goal.near[0], found.turns.lower], ..*goal };
+        let again = turned_once(body, limb, &goal, world_from_end)?;
+        let settled = log(found.turns.lower.conjugate() * again.turns.lower).length() < SETTLED_RAD;
+        found = again;
+        if settled {
+            break;
+        }
+    }
+    Some(found)
+}
+
+/// A wrist so near to the forearm's line is on it \[m\].
+const ON_LINE_M: f64 = 1e-9;
+
+/// Rounds in which bend and turn of a forearm come to agree, and the change at which they do \[rad\].
+const ROUNDS: usize = 12;
+const SETTLED_RAD: f64 = 1e-12;
+
+fn turned_once(body: &Body, limb: Limb, goal: &LimbGoal, world_from_end: DQuat) -> Option<TurnedLimb> {
     let [upper, lower, end] = limb.nodes();
     let elbow = body.link(lower).offset;
     let hinge = Hinge::new(&body.link(lower).limit, limb, goal.near[1], elbow, body.link(end).offset);
