@@ -243,8 +243,9 @@ impl Stage {
                 let standing = reaching.reacher.pose_at(own_secs);
                 let actor = &mut self.actors[index];
                 actor.stand = (standing.hips_position, standing.world[0]);
+                let body = actor.body().clone();
                 if let Some(motion) = actor.motion.as_mut().filter(|_| !resumed) {
-                    motion.resume(left, now_secs, &standing);
+                    motion.resume(&body, left, now_secs, &standing);
                 }
             }
             Phase::Leaving(since) if now_secs - since >= HAND_OVER_SECS => self.actors[index].reaching = None,

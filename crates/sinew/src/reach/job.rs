@@ -183,7 +183,7 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
     }
     let report = meter.report(&reacher, 0.0, reacher.done_secs());
     if job.back {
-        way_back(&mut reacher, clip.as_mut(), frame, &mut poses);
+        way_back(&body, &mut reacher, clip.as_mut(), frame, &mut poses);
     }
     let frames = poses.len();
     let ball = |name: String, radius_m: f64, rgb: [u8; 3], mut places: Vec<(DVec3, DQuat)>| {
@@ -211,7 +211,7 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
 const AFTERWARDS_SECS: f64 = 2.0;
 
 /// Lets go and stands up from a frame on; where there is a clip, goes on with it from where it was left.
-fn way_back(reacher: &mut Reacher, clip: Option<&mut MotionSource>, frame: usize, poses: &mut Vec<Pose>) {
+fn way_back(body: &Body, reacher: &mut Reacher, clip: Option<&mut MotionSource>, frame: usize, poses: &mut Vec<Pose>) {
     let secs = |frame: usize| frame as f64 / HZ;
     reacher.advance(secs(frame));
     reacher.release();
@@ -222,7 +222,7 @@ fn way_back(reacher: &mut Reacher, clip: Option<&mut MotionSource>, frame: usize
         poses.push(standing);
         return;
     };
-    clip.resume(0.0, secs(stands), &standing);
+    clip.resume(body, 0.0, secs(stands), &standing);
     let last = stands + ((HAND_OVER_SECS + AFTERWARDS_SECS) * HZ) as usize;
     poses.extend((stands..last).map(|frame| {
         let since = secs(frame) - secs(stands);
