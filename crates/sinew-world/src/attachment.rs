@@ -24,6 +24,17 @@ pub struct Held {
 pub(crate) struct Attachment {
     pub held: Held,
     joint: ImpulseJointHandle,
+    /// Of a soft hold.
+    spring: Option<Spring>,
+}
+
+/// A spring between two points that rest on each other.
+#[derive(Clone, Copy)]
+struct Spring {
+    stiffness_n_m: f64,
+    damping_n_s_m: f64,
+    /// From the holder's point to the object's before the step \[m\], world.
+    before: DVec3,
 }
 
 /// A hand goes around what has its centre no farther from its own than this \[m\].
@@ -56,22 +67,28 @@ impl World {
             _ if b.is_dynamic() => b.mass(),
             _ => self.mass_kg(held.character),
         };
-        let mut joint = if held.soft {
-            let mut spring = GenericJointBuilder::new(JointAxesMask::empty()).build();
-            let omega = std::f64::consts::TAU * SOFT.0;
-            for axis in [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ] {
-                spring.set_motor_model(axis, MotorModel::ForceBased);
-                spring.set_motor(axis, 0.0, 0.0, mass * omega * omega, 2.0 * SOFT.1 * mass * omega);
+        let omega = std::f64::consts::TAU * SOFT.0;
+        let spring = held.soft.then_some(Spring {
+            stiffness_n_m: mass * omega * omega,
+            damping_n_s_m: 2.0 * SOFT.1 * mass * omega,
+            before: DVec3::ZERO,
+        });
+        let mut joint = match spring {
+            Some(spring) => {
+                let mut joint = GenericJointBuilder::new(JointAxesMask::empty()).build();
+                for axis in [JointAxis::LinX, JointAxis::LinY, JointAxis::LinZ] {
+                    joint.set_motor_model(axis, MotorModel::ForceBased);
+                    joint.set_motor(axis, 0.0, 0.0, spring.stiffness_n_m, spring.damping_n_s_m);
+                }
+                joint
             }
-            spring
-        } else {
-            GenericJointBuilder::new(JointAxesMask::LIN_AXES | JointAxesMask::ANG_AXES).build()
+            None => GenericJointBuilder::new(JointAxesMask::LIN_AXES | JointAxesMask::ANG_AXES).build(),
         };
         joint.set_local_frame1(a_at.inverse() * anchor);
         joint.set_local_frame2(b_at.inverse() * anchor);
         joint.set_contacts_enabled(false);
         let joint = self.engine.joints.insert(one, other, joint, true);
-        self.attachments.push(Attachment { held, joint });
+        self.attachments.push(Attachment { held, joint, spring });
     }
 
     /// Lets go of something.
@@ -114,24 +131,38 @@ impl World {
         self.characters.get(character).map_or(0.0, |one| one.body().mass_kg())
     }
 
-    /// Impulse of a hold on the part that holds, in the last sub-step \[N s\], world.
-    pub(crate) fn attachment_impulse(&self, attachment: &Attachment) -> DVec3 {
-        let Some(joint) = self.engine.joints.get(attachment.joint) else { return DVec3::ZERO };
-        if !attachment.held.soft {
-            return joint_impulse(joint, &self.engine.bodies);
+    /// Remembers how far springs are stretched before a step.
+    pub(crate) fn prepare_attachments(&mut self) {
+        for attachment in &mut self.attachments {
+            if let Some(spring) = &mut attachment.spring
+                && let Some(joint) = self.engine.joints.get(attachment.joint)
+            {
+                spring.before = apart(joint, &self.engine.bodies);
+            }
         }
-        let Some(holder) = self.engine.bodies.get(joint.body1()) else { return DVec3::ZERO };
-        let motors = &joint.data.motors;
-        let along = DVec3::new(motors[0].impulse, motors[1].impulse, motors[2].impulse);
-        *holder.rotation() * (joint.data.local_frame1.rotation * along)
+    }
+
+    /// Force of a hold on the part that holds \[N\], world: of a soft one the mean over the last step, of a hard one that of its last
+    /// sub-step.
+    ///
+    /// The solver keeps no more than the last sub-step's impulses. Those of a spring that is stiff beside a hand's half kilogram differ
+    /// from one sub-step to the next by half; its law over the whole step does not.
+    pub(crate) fn attachment_force(&self, attachment: &Attachment) -> DVec3 {
+        let Some(joint) = self.engine.joints.get(attachment.joint) else { return DVec3::ZERO };
+        let step_secs = self.settings.step_secs();
+        let Some(spring) = &attachment.spring else {
+            let sub_step_secs = step_secs / self.engine.parameters.num_solver_iterations as f64;
+            return joint_impulse(joint, &self.engine.bodies) / sub_step_secs;
+        };
+        let (before, after) = (spring.before, apart(joint, &self.engine.bodies));
+        (before + after) * (0.5 * spring.stiffness_n_m) + (after - before) * (spring.damping_n_s_m / step_secs)
     }
 
     pub(crate) fn break_attachments(&mut self) {
-        let sub_step_secs = self.settings.step_secs() / self.engine.parameters.num_solver_iterations as f64;
         self.broken_holds.clear();
         let mut at = 0;
         while let Some(attachment) = self.attachments.get(at) {
-            let force_n = self.attachment_impulse(attachment).length() / sub_step_secs;
+            let force_n = self.attachment_force(attachment).length();
             if attachment.held.break_force_n.is_some_and(|limit| force_n > limit) {
                 let attachment = self.attachments.remove(at);
                 self.engine.joints.remove(attachment.joint, true);
@@ -141,4 +172,11 @@ impl World {
             }
         }
     }
+}
+
+/// From a joint's point on its first body to that on its second, world \[m\].
+fn apart(joint: &ImpulseJoint, bodies: &RigidBodySet) -> DVec3 {
+    let (Some(one), Some(other)) = (bodies.get(joint.body1()), bodies.get(joint.body2())) else { return DVec3::ZERO };
+    let point = |body: &RigidBody, frame: Pose| (*body.position() * frame).translation;
+    point(other, joint.data.local_frame2) - point(one, joint.data.local_frame1)
 }

@@ -87,7 +87,7 @@ impl World {
             };
             let at = attachment.held.node.index();
             if let Some(body) = self.engine.bodies.get(character.bodies[at]).filter(|_| is_of_the_world) {
-                let force = self.attachment_impulse(attachment) / sub_step_secs;
+                let force = self.attachment_force(attachment);
                 spent[at].held.add(force, DVec3::ZERO, body.linvel(), DVec3::ZERO);
             }
         }

@@ -112,6 +112,8 @@ pub(crate) struct PropJoint {
     bodies: [RigidBodyHandle; 2],
     /// Its frames in the two bodies, as it was made.
     frames: [Pose; 2],
+    /// How it stood before the step, as [`PropJointState::place`].
+    before: f64,
 }
 
 impl World {
@@ -151,7 +153,7 @@ impl World {
         joint.set_local_frame1(frames[0]);
         joint.set_local_frame2(frames[1]);
         let handle = self.engine.joints.insert(one, other, joint, true);
-        self.prop_joints.push(PropJoint { spec, handle: Some(handle), bodies: [one, other], frames });
+        self.prop_joints.push(PropJoint { spec, handle: Some(handle), bodies: [one, other], frames, before: 0.0 });
         Ok(self.prop_joints.len() - 1)
     }
 
@@ -187,24 +189,29 @@ impl World {
 
     /// Hands the joints of props to the solver.
     pub(crate) fn prepare_prop_joints(&mut self) {
-        for joint in &self.prop_joints {
+        for joint in &mut self.prop_joints {
             joint.prepare(&mut self.engine.joints, &self.engine.bodies);
         }
     }
 
     /// Breaks the joints that bore too much in the last step.
     pub(crate) fn break_prop_joints(&mut self) {
-        let sub_step_secs = self.settings.step_secs() / self.engine.parameters.num_solver_iterations as f64;
+        let step_secs = self.settings.step_secs();
+        let sub_step_secs = step_secs / self.engine.parameters.num_solver_iterations as f64;
         let (joints, bodies) = (&mut self.engine.joints, &self.engine.bodies);
         for prop_joint in &mut self.prop_joints {
             let (Some(limit), Some(handle)) = (prop_joint.spec.break_force_n, prop_joint.handle) else { continue };
             let Some(joint) = joints.get(handle) else { continue };
-            let impulse = match prop_joint.spec.kind {
-                PropJointKind::Rope { .. } => joint.data.limits[0].impulse.abs(),
-                PropJointKind::Spring { .. } => joint.data.motors[0].impulse.abs(),
-                _ => joint_impulse(joint, bodies).length(),
+            let force_n = match prop_joint.spec.kind {
+                PropJointKind::Rope { .. } => joint.data.limits[0].impulse.abs() / sub_step_secs,
+                PropJointKind::Spring { length_m, stiffness_n_m, damping_n_s_m } => {
+                    let (before, after) = (prop_joint.before, prop_joint.place_now(bodies));
+                    let stretch_m = (before + after) * 0.5 - length_m;
+                    (stretch_m * stiffness_n_m + (after - before) / step_secs * damping_n_s_m).abs()
+                }
+                _ => joint_impulse(joint, bodies).length() / sub_step_secs,
             };
-            if impulse / sub_step_secs > limit {
+            if force_n > limit {
                 joints.remove(handle, true);
                 prop_joint.handle = None;
             }
@@ -213,8 +220,14 @@ impl World {
 }
 
 impl PropJoint {
-    fn prepare(&self, joints: &mut ImpulseJointSet, bodies: &RigidBodySet) {
+    fn place_now(&self, bodies: &RigidBodySet) -> f64 {
+        let [Some(one), Some(other)] = self.bodies.map(|handle| bodies.get(handle)) else { return 0.0 };
+        self.place(one, other).0
+    }
+
+    fn prepare(&mut self, joints: &mut ImpulseJointSet, bodies: &RigidBodySet) {
         let Some(handle) = self.handle else { return };
+        self.before = self.place_now(bodies);
         let [Some(one), Some(other)] = self.bodies.map(|handle| bodies.get(handle)) else { return };
         // What hangs or swings slowly is slower than any threshold of sleep.
         let Some(joint) = joints.get_mut(handle, true) else { return };

@@ -106,6 +106,7 @@ impl World {
         for prop in &mut self.props {
             prop.prepare(&mut self.engine, step_secs);
         }
+        self.prepare_attachments();
         self.prepare_prop_joints();
         self.engine.step();
         self.forget_forces();

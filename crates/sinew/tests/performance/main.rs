@@ -6,6 +6,7 @@ mod balloon;
 mod car;
 mod giant;
 mod glider;
+mod grasps;
 mod sit_on_box;
 mod stage;
 mod stapler;
