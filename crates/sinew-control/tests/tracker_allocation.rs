@@ -1,11 +1,15 @@
-//! A responding tracker's step allocates nothing: a counting allocator says so.
+//! Steps of the trackers `response` and `kd` allocate nothing: a counting allocator says so.
 #![allow(unsafe_code, reason = "a global allocator is unsafe to implement; it only counts and passes on")]
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
+mod performer;
 mod walker;
 
 use glam::DVec3;
+use performer::{Act, standing};
 use sinew_body::humanoid::Node;
+use sinew_control::tracker::{KdPreset, KdSettings};
+use sinew_world::{Form, Motion, PropSpec, Solid};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use walker::{Scene, Walk, ball};
@@ -52,5 +56,34 @@ fn a_responding_trackers_step_allocates_nothing() {
         scene.world.step();
     }
     assert!(felt > 0, "the ball hits");
+    assert_eq!(count, 0);
+}
+
+#[test]
+fn a_performers_trackers_step_allocates_nothing() {
+    let mut act = Act::new(&standing(8.0), KdSettings::default());
+    // It stands on a plank that can move, and is hit.
+    let plank = Solid::new(Form::Box { size_m: DVec3::new(2.0, 0.1, 2.0) });
+    let plank = PropSpec::new(plank, Motion::Dynamic { mass_kg: 100.0 }, DVec3::Y * -0.05);
+    let plank = act.world.add_prop(plank).unwrap();
+    act.tracker.stand_on(&act.world, Some(plank));
+    let mut count = 0;
+    for step in 0..1680 {
+        match step {
+            240 => act.tracker.set_gains(KdPreset::Giant.gains(), 0.2),
+            480 => act.tracker.set_weight(Node::LeftHand, Some(0.0), Some(0.1), 0.2),
+            720 => act.tracker.set_pins(false, 0.0),
+            // It has fallen by now: from here it comes up again.
+            960 => act.tracker.set_pins(true, 0.5),
+            _ => {}
+        }
+        if (120..144).contains(&step) {
+            act.world.push_part(0, Node::Chest, DVec3::Z * 200.0, None);
+        }
+        let before = COUNT.with(Cell::get);
+        act.track();
+        count += COUNT.with(Cell::get) - before;
+        act.world.step();
+    }
     assert_eq!(count, 0);
 }

@@ -137,12 +137,17 @@ impl Act {
 
     /// One step of physics.
     pub fn step(&mut self) {
+        self.track();
+        self.world.step();
+    }
+
+    /// The tracker's part of a step.
+    pub fn track(&mut self) {
         if self.tracker.wants_pose() {
             self.frame += 1;
             self.tracker.wanted(self.performer.pose(self.frame));
         }
         self.tracker.physics_step(&mut self.world, 0);
-        self.world.step();
     }
 
     /// Steps until a motion frame is over.
