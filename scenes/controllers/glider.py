@@ -4,7 +4,7 @@ PILOT = "pilot"
 
 
 class Glider:
-    weight = 60 * 9.81      # its own; the pilot's is carried by what holds the pilot to the deck
+    mass = 60 + 80          # its own and the pilot's, who stands on it
     height = 1.6
 
     def start(self):
@@ -15,6 +15,8 @@ class Glider:
         up, ahead, left = toWorld(me, (0, 1, 0)), toWorld(me, (0, 0, 1)), toWorld(me, (1, 0, 0))
         # Above 0 when the foot behind is the higher one: nose down, ahead.
         levels = (getPosition(PILOT + ".rightFoot") - getPosition(PILOT + ".leftFoot")).dot(up)
+        # Both on the deck are never level to the millimetre.
+        levels -= max(-0.01, min(0.01, levels))
         facing = toWorld(PILOT + ".chest", (0, 0, 1))
         # What the pilot does reaches the rudders in a quarter of a second.
         share = min(1.0, getTimeStep() / 0.25)
@@ -23,12 +25,12 @@ class Glider:
 
         # Upward along its own axis, with a little help to keep its height.
         fall = self.height - getPosition(me).y - 0.9 * getVelocity(me).y
-        push(me, (self.weight + 400 * fall) * up)
+        push(me, self.mass * (9.81 + 6.7 * fall) * up)
         # Couples at nose and wing tips turn it: to the wanted pitch, level across, at the wanted rate about its own axis.
         spin = getSpin(me)
-        nose = 260 * (self.pitch + ahead.y) - 120 * spin.dot(left)
-        roll = -260 * left.y - 120 * spin.dot(ahead)
-        yaw = 160 * (self.turn - spin.dot(up))
+        nose = 6000 * (self.pitch + ahead.y) - 1300 * spin.dot(left)
+        roll = -6000 * left.y - 1300 * spin.dot(ahead)
+        yaw = 500 * (self.turn - spin.dot(up))
         push(me, (0 - nose) * up, at=(0, 0, 0.5))
         push(me, nose * up, at=(0, 0, -0.5))
         push(me, roll * up, at=(0.5, 0, 0))
@@ -36,4 +38,4 @@ class Glider:
         push(me, yaw * left, at=(0, 0, 0.5))
         push(me, (0 - yaw) * left, at=(0, 0, -0.5))
         # A keel: it goes where it faces.
-        push(me, -90 * getVelocity(me).dot(left) * left)
+        push(me, -5 * self.mass * getVelocity(me).dot(left) * left)

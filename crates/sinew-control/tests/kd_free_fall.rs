@@ -54,7 +54,7 @@ fn steps(secs: f64) -> usize {
 }
 
 /// Switches pins off, and after a while on again; how high the hips were then \[m\], and how the body moved from then on.
-fn falls(performer: &Performer, off_secs: f64, fade_secs: f64) -> (f64, Motion) {
+fn falls(performer: &Performer, off_secs: f64, fade_secs: f64, then_secs: f64) -> (f64, Motion) {
     let mut act = Act::new(performer, KdSettings::default());
     (0..steps(0.5)).for_each(|_| act.step());
     act.tracker.set_pins(false, 0.0);
@@ -67,12 +67,12 @@ fn falls(performer: &Performer, off_secs: f64, fade_secs: f64) -> (f64, Motion) 
     }
     let height_m = act.world.frame().characters[0].parts[0].position.y;
     act.tracker.set_pins(true, fade_secs);
-    (height_m, Motion::of(&mut act, fade_secs + 4.0))
+    (height_m, Motion::of(&mut act, then_secs))
 }
 
 #[test]
 fn a_body_that_fell_to_the_ground_rises_without_a_pop() {
-    let (height_m, motion) = falls(&standing(10.0), 2.0, 1.0);
+    let (height_m, motion) = falls(&standing(10.0), 2.0, 1.0, 7.0);
     assert!(height_m < 0.5, "it fell: hips at {height_m} m");
     assert!(motion.is_smooth() && motion.off_m < 0.02, "{motion:?}");
 }
@@ -80,7 +80,7 @@ fn a_body_that_fell_to_the_ground_rises_without_a_pop() {
 #[test]
 fn a_body_is_caught_in_mid_air_without_a_pop() {
     for off_secs in [0.1, 0.5, 0.8, 1.1] {
-        let (_, motion) = falls(&standing(8.0), off_secs, 0.5);
+        let (_, motion) = falls(&standing(8.0), off_secs, 0.5, 7.0);
         assert!(motion.is_smooth() && motion.off_m < 0.02, "off for {off_secs} s: {motion:?}");
     }
 }
@@ -89,18 +89,18 @@ fn a_body_is_caught_in_mid_air_without_a_pop() {
 fn a_walker_who_went_on_meanwhile_is_met_where_he_is() {
     let Some(folder) = mocap() else { return };
     let walk = Performer::read(&folder.join("accad_bvh/Female1_B03_Walk1.bvh"));
-    let (height_m, motion) = falls(&walk, 3.0, 1.0);
+    // Three seconds on the ground put it four metres behind; it makes up for 0.8 of them in a second.
+    let (height_m, motion) = falls(&walk, 3.0, 1.0, 14.0);
     assert!(height_m < 0.6, "it fell: hips at {height_m} m");
-    // Its feet run after the performer's with the speed of both, catch on the floor and come free: 10 m/s for a step or two. The
-    // trunk has no part in it.
-    assert!(motion.jolt_m_s < 0.5 && motion.step_m < 0.05, "{motion:?}");
+    // No foot is faster than this walker's own swing and the hurry after the performer, 4.8 m/s.
+    assert!(motion.is_smooth(), "{motion:?}");
     // Every part within what a walk is followed with, at its worst.
     assert!(motion.off_m < 0.08, "{motion:?}");
 }
 
 #[test]
 fn gains_that_hold_nothing_and_come_back_do_not_pop_either() {
-    let performer = standing(12.0);
+    let performer = standing(16.0);
     let mut act = Act::new(&performer, KdSettings::default());
     act.tracker.set_gains(KdPreset::Balloon.gains(), 0.3);
     for step in 0..steps(3.0) {
@@ -112,7 +112,7 @@ fn gains_that_hold_nothing_and_come_back_do_not_pop_either() {
     let height_m = act.world.frame().characters[0].parts[0].position.y;
     assert!(height_m < performer.pose(0).hips_position.y - 0.1, "it sank: hips at {height_m} m");
     act.tracker.set_gains(KdPreset::Default.gains(), 0.8);
-    let motion = Motion::of(&mut act, 5.0);
+    let motion = Motion::of(&mut act, 8.0);
     assert!(motion.is_smooth() && motion.off_m < 0.02, "{motion:?}");
 }
 

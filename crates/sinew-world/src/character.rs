@@ -4,6 +4,7 @@ use crate::borne::Borne;
 use crate::effort::Before;
 use crate::engine::Engine;
 use crate::extra_shape::ExtraShape;
+use crate::footing::Footing;
 use crate::joint::{LimitSpring, Start, write_ball, write_hinge};
 use crate::pin::pin_force;
 use crate::ragdoll::{is_hinge, part_inertia};
@@ -46,6 +47,8 @@ pub(crate) struct Character {
     pub pushes: [[DVec3; Node::COUNT]; 2],
     /// For the meter.
     pub before: [Before; Node::COUNT],
+    /// What its pins push off from.
+    pub footing: Option<Footing>,
     limit_spring: LimitSpring,
     stays_awake: bool,
 }
@@ -75,6 +78,7 @@ impl Character {
             extra_shapes: Vec::new(),
             pushes: [[DVec3::ZERO; Node::COUNT]; 2],
             before: [Before::default(); Node::COUNT],
+            footing: None,
             limit_spring,
             stays_awake: false,
         }
@@ -98,6 +102,9 @@ impl Character {
         }
         for node in Node::ALL {
             self.prepare_body(engine, node, step_secs, &loads[node.index()]);
+        }
+        if let Some(footing) = &mut self.footing {
+            footing.press(engine, &self.bodies, &self.before);
         }
     }
 

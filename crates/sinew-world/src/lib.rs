@@ -11,6 +11,7 @@ mod drive;
 mod effort;
 mod engine;
 mod extra_shape;
+mod footing;
 mod frame;
 mod joint;
 mod nearest;

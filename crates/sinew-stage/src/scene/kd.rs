@@ -29,6 +29,10 @@ pub struct KdSpec {
     pub feed_forward: bool,
     /// The trunk gives way to hits; loads are held as ever.
     pub yields: bool,
+    /// What holds the body fades by as much of its weight as something else than the ground bears, such as a seat.
+    pub leans: bool,
+    /// Factor on the largest force that holds a part, 0 to 100: 1 is 1.5 weights of the body for parts of legs, 4 for others.
+    pub strength: f64,
     /// How far single parts are held, by part or alias.
     pub weights: BTreeMap<String, WeightSpec>,
     /// A prop that carries the performer's whole stage along, such as a car.
@@ -56,6 +60,8 @@ impl Default for KdSpec {
             damping: KdDamping::Relative,
             feed_forward: true,
             yields: true,
+            leans: true,
+            strength: 1.0,
             weights: BTreeMap::new(),
             stands_on: None,
         }
@@ -76,6 +82,8 @@ impl KdSpec {
             damping: self.damping,
             feed_forward: self.feed_forward,
             yields: self.yields,
+            leans: self.leans,
+            strength: self.strength,
             ..KdSettings::default()
         };
         for (part, weight) in &self.weights {
@@ -108,6 +116,7 @@ impl KdSpec {
         ] {
             optional(&at(key), value, 0.0..=MOST_GAIN, hint)?;
         }
+        number(&at("strength"), self.strength, 0.0..=MOST_WEIGHT, "1 is as strong as ever")?;
         for (part, weight) in &self.weights {
             let at = |key| ["characters", name, "kd", "weights", part, key];
             number(&at("pin"), weight.pin, 0.0..=MOST_WEIGHT, "1 is as the gains say")?;

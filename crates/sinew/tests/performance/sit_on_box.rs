@@ -69,9 +69,7 @@ fn a_captured_performer_sits_down_on_a_box_and_it_bears_her() {
     // Its top is where the undersides of her thighs are, 7 cm below their middle; a centimetre makes her rest on it.
     let height = centre(&shown, "sitter", Node::LeftUpperLeg).y - 0.06;
     let more = format!(
-        "[props.box]\nbox_m = [0.6, {height}, 0.5]\nposition_m = [{}, {}, {}]\nfixed = true\n\
-         [[when]]\ntouching = [\"sitter\", \"box\"]\ncharacter = \"sitter\"\ndo = \"weights\"\npin = 0.02\nfade_secs = 0.4\n\
-         [[at]]\ntime_secs = 3.7\ncharacter = \"sitter\"\ndo = \"weights\"\npin = 1\nfade_secs = 0.3\n",
+        "[props.box]\nbox_m = [0.6, {height}, 0.5]\nposition_m = [{}, {}, {}]\nfixed = true\n",
         hips.x,
         height / 2.0,
         hips.z - 0.08,

@@ -27,6 +27,11 @@ impl Carrier {
         Some(Carrier { prop, start: (state.position, state.rotation) })
     }
 
+    /// Its number in the world.
+    pub(super) fn prop(&self) -> usize {
+        self.prop
+    }
+
     /// The prop as it is now.
     pub(super) fn now(&self, world: &World) -> Option<Carried> {
         let state = world.frame().props.get(self.prop)?;

@@ -11,10 +11,13 @@
 
 mod carrier;
 mod giving;
+mod leaning;
 mod passing;
 mod ramp;
+mod rise;
 mod settings;
 mod slide;
+mod way;
 
 pub use settings::{KdDamping, KdGains, KdPreset, KdSettings, KdWeight};
 
@@ -24,11 +27,13 @@ use super::instant::Instant;
 use carrier::{Carried, Carrier};
 use giving::Giving;
 use glam::{DMat3, DVec3};
+use leaning::Leaning;
 use passing::Passing;
 use ramp::Ramp;
 use sinew_body::humanoid::{Body, Node, Pose, log};
 use sinew_world::{Drive, Pin, World};
 use slide::Slide;
+use way::Way;
 
 /// Follows wanted poses with forces on every part and torques in every joint.
 ///
@@ -85,11 +90,12 @@ pub struct KdTracker {
     raw_velocity: DVec3,
     before: Instant,
     now: Instant,
-    slide: Option<Slide>,
+    way: Option<Way>,
     start: Start,
     carrier: Option<Carrier>,
     passing: Passing,
     giving: Giving,
+    leaning: Leaning,
 }
 
 /// What the next motion frame begins with.
@@ -110,8 +116,8 @@ const JUMP_RAD: f64 = 1.2;
 /// How long a jump is slid over \[s\].
 const JUMP_SECS: f64 = 0.5;
 
-/// Largest force of a pin: of a part of a leg, and of another one \[weights of the body\]. A foot is held so firmly that it would lift
-/// whatever it is under.
+/// Largest force of a pin: of a part of a leg, and of another one \[weights of the body\]; times [`KdSettings::strength`]. A foot is
+/// held so firmly that it would lift whatever it is under.
 const MOST_WEIGHTS: [f64; 2] = [1.5, 4.0];
 
 /// Friction of a joint that is not held, relative to the inertia of what hangs from it \[1/s\].
@@ -122,8 +128,8 @@ impl KdTracker {
     pub fn new(body: &Body, settings: KdSettings, time_step_secs: f64, first: &Pose) -> KdTracker {
         let gains = settings.gains;
         let now = Instant::of(body, first);
-        let weight_n = body.mass_kg() * 9.81;
-        let most = |node: Node| weight_n * MOST_WEIGHTS[usize::from(!node.is_leg())];
+        let strength_n = body.mass_kg() * 9.81 * settings.strength;
+        let most = |node: Node| strength_n * MOST_WEIGHTS[usize::from(!node.is_leg())];
         KdTracker {
             joint_gain: [1.0; Node::COUNT],
             torque: [DVec3::ZERO; Node::COUNT],
@@ -142,11 +148,12 @@ impl KdTracker {
             raw_velocity: DVec3::ZERO,
             before: now,
             now,
-            slide: None,
+            way: None,
             start: Start::No,
             carrier: None,
             passing: Passing::new(body),
             giving: Giving::default(),
+            leaning: Leaning::default(),
         }
     }
 
@@ -160,7 +167,7 @@ impl KdTracker {
         let share = 1.0 - step_secs / self.clock.time_step_secs();
         self.before = Instant::of(body, &self.glide.at(share));
         self.raw_velocity = (now.hips_position - before.hips_position) / self.clock.time_step_secs();
-        (self.slide, self.start) = (None, Start::No);
+        (self.way, self.start) = (None, Start::No);
     }
 
     /// Begins with the body where and as fast as it is, and takes this long to come to what is wanted \[s\].
@@ -180,7 +187,8 @@ impl KdTracker {
         }
     }
 
-    /// The whole wanted motion is carried along by a prop from now on, as by a car's floor, or by the ground again.
+    /// The whole wanted motion is carried along by a prop from now on, as by a car's floor, or by the ground again. Where physics moves
+    /// the prop, what the pins give the body they take from it.
     pub fn stand_on(&mut self, world: &World, prop: Option<usize>) {
         self.carrier = prop.and_then(|prop| Carrier::new(world, prop));
     }
@@ -208,6 +216,11 @@ impl KdTracker {
     /// Whether the wanted motion's own forces are given on top.
     pub fn set_feed_forward(&mut self, on: bool) {
         self.settings.feed_forward = on;
+    }
+
+    /// Whether what holds the body fades by as much of its weight as something else than the ground bears.
+    pub fn set_leans(&mut self, on: bool) {
+        self.settings.leans = on;
     }
 
     /// Whether the trunk gives way to hits.
@@ -272,11 +285,11 @@ impl KdTracker {
         let mut posed = raw;
         let Some(body) = world.body(character) else { return };
         let mut progress = 1.0;
-        if let Some(slide) = &mut self.slide {
-            posed = slide.step(body, &raw, step_secs);
-            progress = slide.progress();
-            if slide.is_over() {
-                self.slide = None;
+        if let Some(way) = &mut self.way {
+            posed = way.step(body, &raw, step_secs);
+            progress = way.progress();
+            if way.is_over() {
+                self.way = None;
             }
         }
         self.raw_velocity = (raw.hips_position - self.raw.hips_position) / step_secs;
@@ -293,6 +306,7 @@ impl KdTracker {
             world.set_passing(character, masks);
         }
         self.feel(world, character, step_secs);
+        world.set_footing(character, self.carrier.map(|carrier| carrier.prop()));
         self.hold(world, character, &next, progress, step_secs);
         self.before = self.now;
         self.now = next;
@@ -302,7 +316,7 @@ impl KdTracker {
         let pose = self.wanted;
         if has_jumped(self.glide.end(), &pose) {
             let velocity = self.raw_velocity;
-            self.slide = Some(Slide::between(body, &self.posed, &pose, velocity, JUMP_SECS));
+            self.way = Some(Way::Slide(Slide::between(body, &self.posed, &pose, velocity, JUMP_SECS)));
             self.glide = Glide::rest(&pose);
             (self.raw, self.raw_velocity) = (pose, DVec3::ZERO);
         }
@@ -320,7 +334,7 @@ impl KdTracker {
             pose.world = pose.world.map(|rotation| carried.rotation_back(rotation));
         }
         let Some(body) = world.body(character) else { return };
-        self.slide = Some(Slide::between(body, &pose, &self.raw, velocity - self.raw_velocity, over_secs));
+        self.way = Some(Way::from_body(body, [&pose, &self.raw], [velocity, self.raw_velocity], over_secs));
         self.now = Instant::of(body, &pose);
         // It was where its velocity says: no force is fed forward to bring it up to the speed that it has.
         let mut before = pose;
@@ -328,21 +342,27 @@ impl KdTracker {
         self.before = Instant::of(body, &before);
     }
 
-    /// Whether something hit the trunk.
+    /// Whether something hit the trunk, and whether something else than the ground bears the body.
     fn feel(&mut self, world: &World, character: usize, step_secs: f64) {
         let is_held = self.pins.value() * self.carries.value() >= 1.0;
         match world.body(character).filter(|_| self.settings.yields && is_held) {
             Some(body) => self.giving.feel(world, character, body.mass_kg(), step_secs),
             None => self.giving.forget(),
         }
+        if self.settings.leans {
+            let ground = self.carrier.map(|carrier| carrier.prop());
+            self.leaning.feel(world, character, ground, self.posed.hips_position.y);
+        } else {
+            self.leaning.forget();
+        }
     }
 
-    /// `progress` of a slide: legs are firmer than the rest when they stand, not while they come there.
+    /// `progress` of the way: legs are firmer than the rest when they stand, not while they come there.
     fn hold(&self, world: &mut World, character: usize, next: &Instant, progress: f64, step_secs: f64) {
         let Some(outboard) = world.outboard_inertias(character).copied() else { return };
         let carried = self.carrier.and_then(|carrier| carrier.now(world));
         let [k_p, d_p, k_q, d_q] = self.gains.map(|gain| gain.value());
-        let (pins, carries) = (self.pins.value(), self.carries.value());
+        let (pins, carries) = (self.pins.value() * self.leaning.factor(), self.carries.value());
         let is_relative = self.settings.damping == KdDamping::Relative;
         let mut spins = [DVec3::ZERO; Node::COUNT];
         let mut torques = [DVec3::ZERO; Node::COUNT];
@@ -442,6 +462,7 @@ impl KdTracker {
     /// Lets all parts go.
     pub fn release(&self, world: &mut World, character: usize) {
         world.set_limp(character);
+        world.set_footing(character, None);
         world.set_passing(character, [0; Node::COUNT]);
     }
 }

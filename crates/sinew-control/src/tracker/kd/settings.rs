@@ -113,6 +113,11 @@ pub struct KdSettings {
     pub feed_forward: bool,
     /// The trunk gives way to hits (contacts and pushes), which the gains alone would hardly let it; loads are held as ever.
     pub yields: bool,
+    /// What holds the body to its place fades by as much of its weight as something else than the ground bears: a box that it sits on,
+    /// a table that it leans on.
+    pub leans: bool,
+    /// Factor on the largest force of a pin, 0 to 100: 1 is one and a half weights of the body for a part of a leg, four for another.
+    pub strength: f64,
     /// By [`Node::index`].
     pub weights: [KdWeight; Node::COUNT],
 }
@@ -125,6 +130,8 @@ impl KdSettings {
             damping: KdDamping::Relative,
             feed_forward: true,
             yields: true,
+            leans: true,
+            strength: 1.0,
             weights: [KdWeight::FULL; Node::COUNT],
         }
     }

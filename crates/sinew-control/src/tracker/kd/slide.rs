@@ -87,6 +87,6 @@ impl Slide {
 }
 
 /// Height of the lowest point of the soles \[m\].
-fn sole_m(body: &Body, pose: &Pose) -> f64 {
+pub(super) fn sole_m(body: &Body, pose: &Pose) -> f64 {
     pose.hips_position.y - hips_over_soles_m(body, pose)
 }

@@ -1,0 +1,48 @@
+//! From where a body is to where it is wanted.
+
+use super::rise::Rise;
+use super::slide::Slide;
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Pose};
+
+/// How a body comes to a wanted pose.
+#[derive(Clone, Debug)]
+pub(super) enum Way {
+    Slide(Slide),
+    Rise(Rise),
+}
+
+impl Way {
+    /// From where a body is, by getting up where it lies; with the velocities of its hips and of the wanted ones \[m/s\].
+    pub(super) fn from_body(body: &Body, poses: [&Pose; 2], velocities: [DVec3; 2], over_secs: f64) -> Way {
+        let ([pose, wanted], [velocity, wanted_velocity]) = (poses, velocities);
+        if Rise::is_from(body, pose) {
+            Way::Rise(Rise::between(body, pose, wanted, velocity, over_secs))
+        } else {
+            Way::Slide(Slide::between(body, pose, wanted, velocity - wanted_velocity, over_secs))
+        }
+    }
+
+    /// A step goes by; the pose at its end.
+    pub(super) fn step(&mut self, body: &Body, wanted: &Pose, step_secs: f64) -> Pose {
+        match self {
+            Way::Slide(slide) => slide.step(body, wanted, step_secs),
+            Way::Rise(rise) => rise.step(body, wanted, step_secs),
+        }
+    }
+
+    /// How far it has come, 0 to 1.
+    pub(super) fn progress(&self) -> f64 {
+        match self {
+            Way::Slide(slide) => slide.progress(),
+            Way::Rise(rise) => rise.progress(),
+        }
+    }
+
+    pub(super) fn is_over(&self) -> bool {
+        match self {
+            Way::Slide(slide) => slide.is_over(),
+            Way::Rise(rise) => rise.is_over(),
+        }
+    }
+}
