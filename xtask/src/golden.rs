@@ -15,7 +15,8 @@ pub fn run() -> Result<(), String> {
     let report_text = report.to_str().ok_or("the temporary folder's path is not Unicode")?;
     for (name, hash) in entries(&text) {
         let scene = format!("scenes/{name}.toml");
-        let arguments = ["run", "--quiet", "--release", "--", "run", &scene, "--for", "1", "--report", report_text];
+        let arguments =
+            ["run", "--quiet", "--release", "--", "run", &scene, "--no-live", "--for", "1", "--report", report_text];
         command::output(&mut command::cargo(&root, &arguments))?;
         let found = fs::read_to_string(&report).map_err(|error| error.to_string())?;
         if !found.contains(&format!("\"hash\": \"{hash}\"")) {

@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 const USAGE: &str = "\
 cargo xtask check    format, lints, documentation, tests, crates that stand alone, the README's commands
-cargo xtask two-hosts [SCENE KEY]    a session on three network hosts (Linux network namespaces, as root): two actors with 80 ms
-                     between them and the stage, one of them killed and back; checks hashes and times. SCENE has actors red and blue; with KEY red pulls.
+cargo xtask two-hosts    a tug of war on three network hosts (Linux network namespaces, as root): two performed actors with 80 ms
+                     between them and the stage, one of them killed and back; checks hashes and times
 
 It stops at the first failure with exit code 1. Tests on captured motion need the shared folder: beside the repository, or
 named by SINEW_SHARED. Where it is found they must run; where it is missing the check says how many were skipped.";
@@ -14,8 +14,7 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["check"] => end(xtask::check::run()),
-        ["two-hosts"] => end(xtask::two_hosts::run(None)),
-        ["two-hosts", scene, key] => end(xtask::two_hosts::run(Some((scene.as_ref(), key)))),
+        ["two-hosts"] => end(xtask::two_hosts::run()),
         ["help" | "--help" | "-h"] => {
             println!("{USAGE}");
             ExitCode::SUCCESS

@@ -1,10 +1,10 @@
-//! A session on real network hosts: namespaces of this machine, joined by virtual cables, with a relay between that adds
+//! A tug of war on real network hosts: namespaces of this machine, joined by virtual cables, with a relay between that adds
 //! the delay of a long way.
 //!
 //! ```text
-//! red ────┐            40 ms each way            ┌──── stage
-//!         ├─▶ way: relay ───────────────────────▶│ sinew serve
-//! blue ───┘                                      └────
+//! red: sinew perform ─▶ sinew join ──┐     40 ms each way     ┌── stage
+//!                                    ├─▶ way: relay ─────────▶│ sinew serve
+//! blue: sinew perform ─▶ sinew join ─┘                        └──
 //! ```
 
 use crate::{command, repository};
@@ -14,40 +14,24 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Two who hold on to each other, and a key with which one pulls.
-const SCENE: &str = r#"
-format = 1
-name = "two hold on to each other"
-[characters.red]
-[characters.blue]
-position_m = [0, 0, 1.2]
-facing_deg = 180
-[[at]]
-time_secs = 0
-character = "red"
-do = "attach"
-link = "rightHand"
-object = "blue.leftHand"
-soft = true
-[[keys]]
-key = "p"
-character = "red"
-do = "push"
-on = "rightHand"
-force_n = [0, 0, -150]
-for_secs = 0.2
-"#;
+/// Two who pull on one rope.
+const SCENE: &str = "scenes/tug-of-war.toml";
+
+/// The key with which red is pulled.
+const KEY: &str = "2";
+
+/// Where a performer is heard on its own host.
+const VMC: &str = "39539";
 
 /// Delay of the relay each way \[ms\].
 const DELAY_MS: u32 = 40;
 
-/// Runs two actors and a stage on three hosts, kills one actor and lets it come back, and checks hashes and times. Says that it
-/// is skipped where namespaces are not permitted. The scene has actors `red` and `blue`, and a key with which red pulls; without
-/// one it is a scene of its own.
+/// Runs two performed actors and a stage on three hosts, kills one actor and lets it come back, and checks hashes and times. Says
+/// that it is skipped where namespaces are not permitted.
 ///
 /// # Errors
 /// When a claim does not hold.
-pub fn run(scene: Option<(&Path, &str)>) -> Result<(), String> {
+pub fn run() -> Result<(), String> {
     let root = repository::root();
     let hosts = match Hosts::make() {
         Ok(hosts) => hosts,
@@ -56,17 +40,14 @@ pub fn run(scene: Option<(&Path, &str)>) -> Result<(), String> {
             return Ok(());
         }
     };
-    let features = ["--no-default-features", "--features", "session"];
-    let build = |more: &[&str]| command::run(command::cargo(&root, &["build"]).args(more));
-    build(&[&["--package", "sinew", "--bin", "sinew", "--example", "session_check"], &features[..]].concat())?;
-    build(&["--package", "sinew-live", "--features", "session", "--example", "relay"])?;
+    let programs = ["--bin", "sinew", "--example", "session_check", "--example", "relay"];
+    let packages =
+        ["--package", "sinew", "--package", "sinew-live", "--no-default-features", "--features", "sinew/session"];
+    command::run(command::cargo(&root, &["build"]).args(packages).args(programs))?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from).join("debug");
     let folder = std::env::temp_dir().join(format!("sinew-hosts-{}", std::process::id()));
     fs::create_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let own = folder.join("scene.toml");
-    fs::write(&own, SCENE).map_err(|error| format!("{}: {error}", own.display()))?;
-    let (scene, key) = scene.unwrap_or((&own, "p"));
-    let done = Session { hosts: &hosts, target: &target, folder: &folder, scene, key }.run();
+    let done = Session { hosts: &hosts, target: &target, folder: &folder, scene: &root.join(SCENE) }.run();
     let _ = fs::remove_dir_all(&folder);
     done
 }
@@ -150,7 +131,6 @@ struct Session<'a> {
     target: &'a Path,
     folder: &'a Path,
     scene: &'a Path,
-    key: &'a str,
 }
 
 impl Session<'_> {
@@ -161,16 +141,27 @@ impl Session<'_> {
         let (server, red, blue) = (self.path("server.json"), self.path("red.json"), self.path("blue.json"));
         let scene = self.scene.to_str().ok_or("the scene's path is not Unicode")?;
         let delay = DELAY_MS.to_string();
+        let mut performers = Vec::new();
+        for host in ["red", "blue"] {
+            // What the understudy does, once more as a performer: it stays where the rope is.
+            let clip = self.path(&format!("{host}.bvh"));
+            command::output(Command::new(&sinew).args(["run", scene, "--no-live", "--character", host, "-o", &clip]))?;
+            performers.push(self.hosts.start(
+                host,
+                &sinew,
+                &["perform", &clip, "--to", &format!("udp://127.0.0.1:{VMC}")],
+            )?);
+        }
         let _relay = self.hosts.start("way", &relay, &["0.0.0.0:47111", "10.77.1.2:47110", &delay])?;
         let serve = ["serve", scene, "--bind", "10.77.1.2:47110", "--token-file", &token, "--for", "24"];
         let stage =
             self.hosts.start("stage", &sinew, &[&serve[..], &["--take", &take, "--report", &server]].concat())?;
         self.appears(&token)?;
         let join = |host: &str, way: &str, report: &str, more: &[&str]| {
-            let begin = ["join", way, "--token-file", &token, "--as", host, "--report", report];
+            let begin = ["join", way, "--token-file", &token, "--as", host, "--vmc", VMC, "--report", report];
             self.hosts.start(host, &sinew, &[&begin[..], more].concat())
         };
-        let presses: Vec<String> = ["2", "4", "6", "16"].iter().map(|secs| format!("{}@{secs}", self.key)).collect();
+        let presses: Vec<String> = ["2", "4", "6", "16"].iter().map(|secs| format!("{KEY}@{secs}")).collect();
         let presses: Vec<&str> = presses.iter().flat_map(|press| ["--press", press]).collect();
         let pulls = join("red", "10.77.2.1:47111", &red, &[&["--for", "20"], &presses[..]].concat())?;
         let first = join("blue", "10.77.3.1:47111", &blue, &[])?;

@@ -2,7 +2,8 @@
 //! with clocks that drift, on a virtual one.
 //!
 //! `cargo bench -p sinew-live` runs all; `-- latency` or `-- drift` one. It is no criterion benchmark: what counts is the tail of
-//! one long run.
+//! one long run. For latency, SECONDS says how long, TRACKER how the bodies follow, and THREADS, with `--features sinew-stage/threads`, on how
+//! many threads the world is stepped.
 
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "a benchmark")]
 
@@ -28,10 +29,11 @@ fn main() {
         println!("packet received to frame sent, mark: p99 below {:.2} ms", 1e3 / PHYSICS_HZ + 1.0);
         for actors in [1, 8] {
             for hz in [60.0, 120.0] {
-                let (latency, late_steps) = latency(actors, hz, secs);
+                let Ran { latency, late_steps, step_us } = latency(actors, hz, secs);
                 let quantile = |share| latency.quantile_ms(share).unwrap_or(f64::NAN);
                 println!(
-                    "{actors} actors, {hz:3.0} Hz: median {:.2} ms, p99 {:.2} ms; {late_steps:.2} % of the steps began late",
+                    "{actors} actors, {hz:3.0} Hz: median {:.2} ms, p99 {:.2} ms; {step_us:.0} us from waking to sent; {late_steps:.2} % of \
+                     the steps began late",
                     quantile(0.5),
                     quantile(0.99)
                 );
@@ -57,7 +59,15 @@ fn player(hz: f64, phase: f64) -> ClipPlayer {
     ClipPlayer::of_poses(body, poses.collect(), hz).unwrap()
 }
 
-fn latency(actors: u16, hz: f64, secs: f64) -> (Latency, f64) {
+struct Ran {
+    latency: Latency,
+    /// Steps that began over 1 ms late \[%\].
+    late_steps: f64,
+    /// Mean time from the beginning of a step until its frames are sent \[µs\].
+    step_us: f64,
+}
+
+fn latency(actors: u16, hz: f64, secs: f64) -> Ran {
     // Ports that are free now.
     let ports: Vec<u16> = (0..actors)
         .map(|_| UdpSocket::bind("127.0.0.1:0").unwrap())
@@ -77,6 +87,7 @@ fn latency(actors: u16, hz: f64, secs: f64) -> (Latency, f64) {
     let scene = Scene::from_text(&text).unwrap();
     let mut performers = Performers::open(&scene, IpAddr::V4(Ipv4Addr::LOCALHOST), &[]).unwrap();
     let mut stage = Stage::new(scene, None).unwrap();
+    stage.set_threads(std::env::var("THREADS").ok().and_then(|text| text.parse().ok()).unwrap_or(1));
     let ends = Arc::new(AtomicBool::new(false));
     let senders: Vec<_> = ports
         .iter()
@@ -91,16 +102,19 @@ fn latency(actors: u16, hz: f64, secs: f64) -> (Latency, f64) {
     let began = Instant::now();
     let steps = (secs * PHYSICS_HZ) as u64;
     let mut late = 0u64;
+    let mut spent = Duration::ZERO;
     for step in 0..steps {
         let due = Duration::from_secs_f64(step as f64 / PHYSICS_HZ);
         late += u64::from(began.elapsed() > due + Duration::from_millis(1));
         std::thread::sleep(due.saturating_sub(began.elapsed()));
+        let woken = Instant::now();
         performers.feed(&mut stage);
         stage.step();
         for mirror in &mut mirrors {
             mirror.send(&stage);
         }
         performers.shown();
+        spent += woken.elapsed();
     }
     ends.store(true, Ordering::Relaxed);
     for sender in senders {
@@ -110,7 +124,11 @@ fn latency(actors: u16, hz: f64, secs: f64) -> (Latency, f64) {
     for index in 0..actors {
         all.join(performers.of(&format!("a{index}")).unwrap().1);
     }
-    (all, 100.0 * late as f64 / steps as f64)
+    Ran {
+        latency: all,
+        late_steps: 100.0 * late as f64 / steps as f64,
+        step_us: spent.as_secs_f64() / steps as f64 * 1e6,
+    }
 }
 
 fn send(player: &ClipPlayer, port: u16, ends: &AtomicBool) {

@@ -11,6 +11,7 @@ mod performers;
 mod player;
 mod port;
 pub mod raw;
+mod raw_player;
 #[cfg(feature = "session")]
 pub mod session;
 pub mod vmc;
@@ -20,3 +21,4 @@ pub use mirror::Mirror;
 pub use performers::{Latency, Performers};
 pub use player::ClipPlayer;
 pub use port::{Port, PortCounters, PortError};
+pub use raw_player::RawPlayer;

@@ -66,9 +66,7 @@ impl ClipPlayer {
 
     /// The pose of a frame. After the last one the clip is played backwards, and so on: nobody jumps.
     pub fn pose(&self, number: u64) -> &Pose {
-        let last = (self.poses.len() - 1) as u64;
-        let at = if last == 0 { 0 } else { number % (2 * last) };
-        &self.poses[at.min(2 * last - at.min(2 * last)) as usize]
+        &self.poses[to_and_fro(number, self.poses.len())]
     }
 
     /// What the performer sends as its frame of this number.
@@ -90,4 +88,11 @@ impl ClipPlayer {
         let sent_secs = sample.time_secs;
         fate.arrivals_secs.into_iter().flatten().map(move |after| (sent_secs + after, bytes.clone()))
     }
+}
+
+/// Which of `count` frames is shown as the one of this number, when they are played forwards and backwards in turn.
+pub(crate) fn to_and_fro(number: u64, count: usize) -> usize {
+    let last = count.saturating_sub(1) as u64;
+    let at = if last == 0 { 0 } else { number % (2 * last) };
+    at.min(2 * last - at) as usize
 }

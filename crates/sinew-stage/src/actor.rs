@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, Node, Pose};
 use sinew_control::graph::{Cause, Graph, GraphPlayer};
 use sinew_control::ik::Reach;
-use sinew_control::perform::LiveSource;
+use sinew_control::perform::{LiveSource, Presence};
 use sinew_control::pose::{KeyPose, PosePlayer};
 use sinew_control::reflex::{Reflex, Sense};
 use sinew_control::tracker::{JointGain, KdTracker, KinematicTracker, PdTracker, ResponseTracker};
@@ -169,7 +169,7 @@ impl Actor {
             reaching.leave();
         }
         if let Some(performance) = &mut self.performance {
-            performance.follow(false);
+            performance.leave();
         }
     }
 
@@ -204,7 +204,23 @@ impl Actor {
 
     /// The performer's stream goes on by a step. Returns what there is to tell.
     pub(crate) fn step_performance(&mut self, now_secs: f64) -> Option<&'static str> {
-        self.performance.as_mut()?.advance(now_secs, self.step_secs)
+        let is_understudied = self.performance.as_ref()?.has_understudy_on();
+        if is_understudied {
+            let acted = self.wanted_pose(now_secs);
+            self.performance.as_mut()?.stand_by(&acted);
+        }
+        let performance = self.performance.as_mut()?;
+        let word = performance.advance(now_secs, self.step_secs);
+        if is_understudied && performance.source().presence() == Presence::Performing {
+            self.follow_performer(true).ok()?;
+        }
+        word
+    }
+
+    /// Whether its controller is called: one that belongs to an understudy is silent while the performer acts.
+    pub(crate) fn hears_scripts(&self) -> bool {
+        let is_off = self.performance.as_ref().is_some_and(Performance::has_understudy_off);
+        self.has_layer(Layer::Scripts) && !is_off
     }
 
     pub(crate) fn signal(&mut self, name: &str) {

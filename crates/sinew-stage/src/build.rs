@@ -74,7 +74,10 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         }
         let mut actor = Actor::new(index, cut.body, poses, graphs, pose, &joints, world.settings().step_secs());
         actor.motion = cut.motion;
-        if let Some(live) = spec.source.as_ref().and_then(|source| source.live.as_ref()) {
+        if let Some(source) = &spec.source
+            && let Some(live) = &source.live
+        {
+            let has_understudy = source.has_understudy();
             let source = LiveSource::new(
                 actor.body(),
                 spec.position_m.into(),
@@ -82,7 +85,7 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
                 &start,
                 live.settings(),
             );
-            actor.performance = Some(Performance::of(source));
+            actor.performance = Some(Performance::of(source, has_understudy));
         }
         actors.push(actor);
     }

@@ -1,16 +1,29 @@
 //! A character's performer on the stage.
 
+use sinew_body::humanoid::Pose;
 use sinew_control::perform::{LiveSource, Presence};
+
+/// Who acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Acts {
+    /// The scene's own pose, graph or clip, until the performer is heard.
+    Understudy,
+    Performer,
+    /// Neither: somebody let go of the performer.
+    Others,
+}
 
 /// A performer's stream, and whether the character follows it at present.
 pub(crate) struct Performance {
     source: LiveSource,
-    followed: bool,
+    has_understudy: bool,
+    acts: Acts,
 }
 
 impl Performance {
-    pub fn of(source: LiveSource) -> Performance {
-        Performance { source, followed: true }
+    pub fn of(source: LiveSource, has_understudy: bool) -> Performance {
+        let acts = if has_understudy { Acts::Understudy } else { Acts::Performer };
+        Performance { source, has_understudy, acts }
     }
 
     pub fn source(&self) -> &LiveSource {
@@ -22,16 +35,42 @@ impl Performance {
     }
 
     pub fn is_followed(&self) -> bool {
-        self.followed
+        self.acts == Acts::Performer
     }
 
     pub fn follow(&mut self, on: bool) {
-        self.followed = on;
+        self.acts = if on { Acts::Performer } else { Acts::Others };
+    }
+
+    /// Something else is to be done. An understudy takes that as its own part.
+    pub fn leave(&mut self) {
+        if self.is_followed() {
+            self.follow(false);
+        }
+    }
+
+    /// Whether an understudy acts.
+    pub fn has_understudy_on(&self) -> bool {
+        self.acts == Acts::Understudy
+    }
+
+    /// Whether the performer is followed in the place of an understudy.
+    pub fn has_understudy_off(&self) -> bool {
+        self.has_understudy && self.is_followed()
+    }
+
+    /// The performer, when it comes, will begin at this pose.
+    pub fn stand_by(&mut self, pose: &Pose) {
+        self.source.stand_by(pose);
     }
 
     /// Goes on by a step. Returns what the performer did, when it did something.
     pub fn advance(&mut self, now_secs: f64, step_secs: f64) -> Option<&'static str> {
-        Some(match self.source.advance(now_secs, step_secs)? {
+        let presence = self.source.advance(now_secs, step_secs)?;
+        if presence == Presence::Performing && self.has_understudy_on() {
+            return Some("is performed in place of its understudy");
+        }
+        Some(match presence {
             Presence::Waiting => "waits for a performer",
             Presence::Performing => "is performed",
             Presence::Holding => "hears no performer and holds",

@@ -3,7 +3,7 @@
 use crate::Stage;
 use crate::scene::JointKind;
 use crate::sight::{names, snapshot};
-use sinew_control::{Action, Command, Layer};
+use sinew_control::{Action, Command};
 use sinew_script::{Script, StartInfo};
 
 /// What a controller runs, by its place in the frame.
@@ -73,11 +73,11 @@ impl Stage {
 
     /// Whether a controller is to be called.
     fn is_called(&mut self, owner: Owner) -> bool {
-        let has_layer = match owner {
-            Owner::Character(character) => self.actors[character].has_layer(Layer::Scripts),
+        let is_heard = match owner {
+            Owner::Character(character) => self.actors[character].hears_scripts(),
             Owner::Prop(_) => true,
         };
-        has_layer && self.running(owner).is_some_and(|running| running.script.is_running())
+        is_heard && self.running(owner).is_some_and(|running| running.script.is_running())
     }
 
     /// Reads a controller's text again, for everything that it runs.

@@ -27,12 +27,16 @@ fn performed(time_secs: f64) -> PerformerSample {
 
 fn perform(stage: &mut Stage, steps: usize) {
     for step in 0..steps {
-        if step % 4 == 0 {
-            let sample = performed(step as f64 / 240.0);
-            stage.command(Command::to("red", Action::Perform { sample: Box::new(sample) }));
-        }
-        stage.step();
+        perform_one(stage, step);
     }
+}
+
+fn perform_one(stage: &mut Stage, step: usize) {
+    if step.is_multiple_of(4) {
+        let sample = performed(step as f64 / 240.0);
+        stage.command(Command::to("red", Action::Perform { sample: Box::new(sample) }));
+    }
+    stage.step();
 }
 
 #[test]
@@ -134,4 +138,59 @@ fn a_simulated_body_that_loses_its_performer_stands_and_takes_up_again_without_a
     assert!(lowest > 0.85, "{lowest}");
     let performance = stage.state_of(red).unwrap().performance().unwrap();
     assert_eq!((performance.presence(), performance.gain()), (Presence::Performing, 1.0));
+}
+
+/// The pose of the understudy has both arms up; its controller would keep them there.
+const UNDERSTUDIED: &str = "format = 1\n[characters.red]\nsource = { pose = \"up\", live = {} }\ntracker = \"kd\"\n\
+                            [poses.up]\njoints.leftUpperArm = [0, 0, 150]\njoints.rightUpperArm = [0, 0, -150]\n";
+
+#[test]
+fn an_understudy_acts_until_the_performer_is_heard_and_gives_way_without_a_jump() {
+    let mut stage = Stage::new(Scene::from_text(UNDERSTUDIED).unwrap(), None).unwrap();
+    for _ in 0..240 {
+        stage.step();
+    }
+    let right_arm = |stage: &Stage| stage.frame().characters[0].part(Node::RightUpperArm).rotation * DVec3::NEG_Y;
+    assert!(right_arm(&stage).y > 0.6, "it is up: {}", right_arm(&stage));
+    let mut before = stage.frame().characters[0].clone();
+    let mut fastest = 0.0_f64;
+    for step in 0..600 {
+        perform_one(&mut stage, step);
+        let now = &stage.frame().characters[0];
+        for node in Node::ALL {
+            fastest = fastest.max((now.part(node).position - before.part(node).position).length());
+        }
+        before = now.clone();
+    }
+    // The arm hangs as the performer's does; on the way nothing moved by more than 2 cm in a step.
+    assert!(right_arm(&stage).y < -0.9, "{}", right_arm(&stage));
+    assert!(fastest < 0.02, "{fastest}");
+    let told: Vec<&str> = stage.events().list().iter().map(|event| event.effect.as_str()).collect();
+    assert_eq!(told, ["red is performed in place of its understudy"]);
+}
+
+#[test]
+fn who_lets_go_before_the_performer_comes_keeps_the_understudy() {
+    let mut stage = Stage::new(Scene::from_text(UNDERSTUDIED).unwrap(), None).unwrap();
+    stage.command(Command::to("red", Action::Live { on: false }));
+    perform(&mut stage, 480);
+    let arm = stage.frame().characters[0].part(Node::RightUpperArm).rotation * DVec3::NEG_Y;
+    assert!(arm.y > 0.6, "{arm}");
+}
+
+#[test]
+fn a_spoilt_first_sample_does_not_place_the_performance() {
+    let (mut stage, mut other) = (stage(), stage());
+    let mut first = performed(0.0);
+    first.hips_um = [8_000_000, 4_600_000, -2_000_000];
+    stage.command(Command::to("red", Action::Perform { sample: Box::new(first) }));
+    stage.step();
+    other.step();
+    perform(&mut stage, 480);
+    perform(&mut other, 480);
+    let hips = |stage: &Stage| stage.frame().characters[1].part(Node::Hips).position;
+    assert_eq!(stage.cast().character("red"), Some(1));
+    // What goes on for ten samples is believed: the way begins eleven samples later, 0.18 s at 0.6 m/s.
+    assert!((hips(&stage) - hips(&other)).length() < 0.12, "{} {}", hips(&stage), hips(&other));
+    assert!((hips(&stage).y - hips(&other).y).abs() < 1e-3);
 }

@@ -1,7 +1,7 @@
 //! Whether a session on several machines was what it should be: `session_check TAKE SERVER.json ROUND_TRIP_MS CLIENT.json...`,
 //! from a take and the reports of `sinew serve` and `sinew join`.
 //!
-//! The hashes of server and clients agree at every step that two of them have, and what one actor sent reached the other
+//! Every actor that has a performer was performed. The hashes of server and clients agree at every step that two of them have, and what one actor sent reached the other
 //! characters within one round trip plus two physics steps: from the moment of sending to the moment at which the others are
 //! shown the first frame in which another character is in another state than it would be otherwise. Both moments are told by
 //! the stage's steps: a frame of step n is at every client half a round trip after step n, so the time between them is the
@@ -34,7 +34,22 @@ fn main() -> Result<(), Failure> {
     if compared == 0 {
         return Err("there was nothing to compare".into());
     }
+    performed(&server)?;
     in_time(&take, &server, round_trip.parse()?, &clients)
+}
+
+/// Whoever has a performer followed it.
+fn performed(server: &Value) -> Result<(), Failure> {
+    for (name, actor) in server["actors"].as_object().into_iter().flatten() {
+        println!(
+            "{name}: {} samples of its performer, {} late, {} lost",
+            actor["received"], actor["late"], actor["lost"]
+        );
+        if actor["received"] == 0 {
+            return Err(format!("nobody performed {name}").into());
+        }
+    }
+    Ok(())
 }
 
 fn report(path: &str) -> Result<Value, Failure> {

@@ -7,7 +7,7 @@ mod command;
 
 use command::{json, sinew};
 use serde_json::Value;
-use std::net::UdpSocket;
+use std::net::{TcpListener, UdpSocket};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
@@ -77,6 +77,47 @@ fn a_performance_over_a_socket_is_reported_replayed_re_run_on_another_body_and_p
     assert_eq!(second["actors"]["red"]["counters"], first["actors"]["red"]["counters"], "as it was");
     assert!(count(&second, "blue", "received") > 40);
     sinew(folder, ["replay", "second.take"]).done();
+}
+
+#[test]
+fn a_shipped_scene_is_taken_over_from_its_understudy_by_whoever_performs() {
+    let folder = tempfile::tempdir().unwrap();
+    let port = free_port();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/tetherball.toml");
+    let port_there = format!("characters.player.source.live.port={port}");
+    let arguments = ["run", scene.to_str().unwrap(), "--set", &port_there, "--for", "2.5", "--report", "r.json"];
+    let mut performer = perform(port, &[]);
+    let ran = sinew(folder.path(), arguments);
+    performer.kill().unwrap();
+    performer.wait().unwrap();
+    assert!(ran.done().out.contains("player is performed in place of its understudy"));
+    assert!(count(&json(&folder.path().join("r.json")), "player", "received") > 40);
+}
+
+#[test]
+fn a_suit_that_broadcasts_raw_is_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let text = "format = 1\n[characters.red]\nsource = { live = { raw_port = PORT } }\ntracker = \"kinematic\"\n";
+    std::fs::write(folder.join("raw.toml"), text.replace("PORT", &port.to_string())).unwrap();
+    let stage = std::thread::spawn({
+        let folder = folder.to_owned();
+        move || sinew(&folder, ["run", "raw.toml", "--for", "4", "--report", "r.json"])
+    });
+    let to = format!("tcp://127.0.0.1:{port}");
+    // The stage may not listen yet.
+    let performed = (0..40).any(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        sinew(folder, ["perform", "--to", &to, "--for", "3"]).code == 0
+    });
+    stage.join().unwrap().done();
+    assert!(performed);
+    let report = json(&folder.join("r.json"));
+    // Of three seconds at the sample's 60 Hz the first is watched only.
+    assert!(count(&report, "red", "received") > 40, "{}", report["actors"]);
+    assert_eq!(count(&report, "red", "rejected"), 0, "{}", report["actors"]);
+    sinew(folder, ["perform", "--to", &to, "--loss", "0.1"]).failed(&["a raw stream comes whole"]);
 }
 
 #[test]

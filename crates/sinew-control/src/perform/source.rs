@@ -57,6 +57,8 @@ pub struct LiveSource {
     clock: Clock,
     build: Option<Build>,
     alignment: Option<Alignment>,
+    /// Samples that were used with this alignment.
+    aligned: u32,
     buffer: Buffer,
     /// Sender's time that is shown \[s\].
     playhead: Option<f64>,
@@ -101,6 +103,9 @@ const BRIDGE_SECS: f64 = 0.1;
 /// How far ahead a pose is foretold \[s\]: a motion frame at 30 Hz.
 const MOST_AHEAD_SECS: f64 = 0.034;
 
+/// Samples after which an alignment is kept for good.
+const SURE: u32 = 10;
+
 /// Passed samples looked at in one step.
 const MOST_PASSED: usize = 64;
 
@@ -114,6 +119,7 @@ impl LiveSource {
             clock: Clock::new(settings.most_jitter_secs),
             build: None,
             alignment: None,
+            aligned: 0,
             buffer: Buffer::new(),
             playhead: None,
             is_ahead: false,
@@ -133,6 +139,13 @@ impl LiveSource {
         }
     }
 
+    /// Until the performer is heard, something else acts: the performance will begin at this pose.
+    pub fn stand_by(&mut self, pose: &Pose) {
+        if self.presence == Presence::Waiting {
+            (self.idle, self.blended, self.shown, self.before) = (*pose, *pose, *pose, *pose);
+        }
+    }
+
     /// Takes a sample in that arrives at a time of the stage \[s\].
     pub fn receive(&mut self, sample: &PerformerSample, now_secs: f64) {
         if !self.hygiene.is_sound(sample) || !sample.time_secs.is_finite() {
@@ -141,8 +154,8 @@ impl LiveSource {
         if sample.build.is_some() && self.build.is_none() {
             self.build = sample.build;
         }
-        let alignment = self.alignment.unwrap_or_else(|| Alignment::of(sample, self.build, &self.stand));
-        let pose = alignment.pose(sample);
+        let mut alignment = self.alignment.unwrap_or_else(|| Alignment::of(sample, self.build, &self.stand));
+        let mut pose = alignment.pose(sample);
         let around = Around {
             arrival_secs: now_secs,
             playhead_secs: self.playhead,
@@ -155,12 +168,19 @@ impl LiveSource {
             self.buffer.clear();
             self.clock.restart();
             self.playhead = None;
+            if self.aligned < SURE {
+                // What it was aligned by was no performer.
+                alignment = Alignment::of(sample, self.build, &self.stand);
+                pose = alignment.pose(sample);
+                self.aligned = 0;
+            }
         }
         if verdict != Verdict::Drop {
             self.clock.observe(now_secs, sample.time_secs, verdict == Verdict::Late);
         }
         if matches!(verdict, Verdict::Use | Verdict::Begin) {
             self.alignment = Some(alignment);
+            self.aligned = self.aligned.saturating_add(1);
             self.heard_secs = now_secs;
             let entry = Entry { time_secs: sample.time_secs, pose };
             let gaps = self.buffer.insert(entry);

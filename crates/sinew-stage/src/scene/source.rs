@@ -7,7 +7,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_control::ReachOrder;
 
-/// One of `pose`, `graph`, `clip`, `live`, and `reach`, which may stand beside a pose or a clip.
+/// One of `pose`, `graph`, `clip`, `live` and `reach`. A reach may stand beside a pose or a clip, and begins in it; a live performer
+/// beside a pose, a graph or a clip, which act until the performer is first heard.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SourceSpec {
@@ -30,14 +31,20 @@ pub struct SourceSpec {
 }
 
 impl SourceSpec {
+    /// Whether something of the scene's own acts until a live performer is heard.
+    pub(crate) fn has_understudy(&self) -> bool {
+        self.live.is_some() && (self.pose.is_some() || self.graph.is_some() || self.clip.is_some())
+    }
+
     pub(super) fn check(&self, name: &str) -> Result<(), Fault> {
         let path = ["characters", name, "source"];
         let at = |key| ["characters", name, "source", key];
         let stated = [&self.pose, &self.graph, &self.clip].into_iter().flatten().count();
-        let stated = stated + usize::from(self.live.is_some());
-        if stated != 1 && !(stated == 0 && self.reach.is_some()) {
-            let problem = format!("{stated} of pose, graph, clip and live are stated; keep exactly one");
-            return Err(Fault::at(&path, problem));
+        if stated > 1 {
+            return Err(Fault::at(&path, format!("{stated} of pose, graph and clip are stated; keep one")));
+        }
+        if stated == 0 && self.live.is_none() && self.reach.is_none() {
+            return Err(Fault::at(&path, "it states no source; write one of pose, graph, clip, live and reach"));
         }
         if let Some(reach) = &self.reach {
             if self.graph.is_some() || self.live.is_some() {

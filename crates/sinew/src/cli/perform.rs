@@ -3,11 +3,12 @@
 use super::live::resolve;
 use super::{Reading, output};
 use anyhow::{Context, Result, bail};
-use sinew::live::{ClipPlayer, Impairment};
+use sinew::live::{ClipPlayer, Impairment, RawPlayer};
 use sinew::motion::formats::MotionFile;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
-use std::net::UdpSocket;
+use std::io::Write;
+use std::net::{SocketAddr, TcpStream, UdpSocket};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -16,12 +17,12 @@ use std::time::{Duration, Instant};
 pub(super) struct Perform {
     /// The motion file to play, forwards and backwards in turn; a walk that Sinew makes itself when left out.
     clip: Option<PathBuf>,
-    /// Where to, such as udp://127.0.0.1:39539.
+    /// Where to: udp://127.0.0.1:39539 sends VMC; tcp://127.0.0.1:39541 sends a BVH raw, as some suits do, at its own rate.
     #[arg(long, value_name = "udp://HOST:PORT")]
     to: String,
-    /// Frames a second.
-    #[arg(long, value_name = "N", default_value_t = 60.0)]
-    fps: f64,
+    /// Frames a second; 60 when left out.
+    #[arg(long, value_name = "N")]
+    fps: Option<f64>,
     /// For how long [s]; until stopped when left out.
     #[arg(long = "for", value_name = "SECONDS")]
     for_secs: Option<f64>,
@@ -62,16 +63,22 @@ fn millis(text: &str) -> Result<f64, String> {
 
 impl Perform {
     pub(super) fn run(&self) -> Result<()> {
-        let address = self
-            .to
-            .strip_prefix("udp://")
-            .with_context(|| format!("--to {}: write udp://HOST:PORT, such as udp://127.0.0.1:39539", self.to))?;
-        let to = resolve(address)?;
+        if self.for_secs.is_some_and(|secs| !(0.0..=1e9).contains(&secs)) {
+            bail!("--for is out of range; give seconds");
+        }
+        match self.to.split_once("://") {
+            Some(("udp", address)) => self.send_vmc(resolve(address)?),
+            Some(("tcp", address)) => self.send_raw(resolve(address)?),
+            _ => bail!("--to {}: write udp://HOST:PORT, such as udp://127.0.0.1:39539, or tcp://HOST:PORT", self.to),
+        }
+    }
+
+    fn send_vmc(&self, to: SocketAddr) -> Result<()> {
         let file = match &self.clip {
             Some(path) => MotionFile::read(path, &self.reading.options())?,
             None => MotionFile::from_bvh(sinew::sample::WALK_BVH, &self.reading.options())?,
         };
-        let player = ClipPlayer::new(&file, self.fps).map_err(anyhow::Error::msg)?;
+        let player = ClipPlayer::new(&file, self.fps.unwrap_or(60.0)).map_err(anyhow::Error::msg)?;
         let impairment = Impairment {
             delay_secs: self.delay / 1e3,
             jitter_secs: self.jitter / 1e3,
@@ -81,15 +88,46 @@ impl Perform {
             corrupt: self.corrupt,
             seed: self.seed,
         };
-        if self.for_secs.is_some_and(|secs| !(0.0..=1e9).contains(&secs)) {
-            bail!("--for is out of range; give seconds");
-        }
         let socket = UdpSocket::bind(if to.is_ipv4() { "0.0.0.0:0" } else { "[::]:0" })?;
         let (frames, datagrams) = play(&player, &impairment, self.for_secs, |bytes| {
             // Nobody listens yet, or the way is full: the next one is newer.
             let _ = socket.send_to(bytes, to);
         });
         output::say(&format!("performed {frames} frames in {datagrams} datagrams to {to}"))
+    }
+
+    fn send_raw(&self, to: SocketAddr) -> Result<()> {
+        let shares = [self.delay, self.jitter, self.loss, self.duplicate, self.reorder, self.corrupt];
+        if self.fps.is_some() || shares != [0.0; 6] {
+            bail!(
+                "--to tcp: a raw stream comes whole, in order and at the clip's rate; give no --fps, --delay, --jitter, \
+                   --loss, --duplicate, --reorder and --corrupt, or send VMC by udp://"
+            );
+        }
+        let player = match &self.clip {
+            Some(path) => {
+                let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
+                let player = RawPlayer::new(&String::from_utf8_lossy(&bytes)).map_err(anyhow::Error::msg);
+                player.with_context(|| path.display().to_string())?
+            }
+            None => RawPlayer::new(&String::from_utf8_lossy(sinew::sample::WALK_BVH)).map_err(anyhow::Error::msg)?,
+        };
+        let stream = TcpStream::connect(to);
+        let mut stream =
+            stream.with_context(|| format!("nobody listens at {to}; run a scene with raw_port = {}", to.port()))?;
+        stream.set_nodelay(true)?;
+        stream.write_all(player.header().as_bytes())?;
+        let began = Instant::now();
+        let last = self.for_secs.map_or(u64::MAX, |secs| (secs / player.interval().as_secs_f64()).ceil() as u64);
+        let mut frames = 0;
+        while frames < last {
+            std::thread::sleep(player.interval().mul_f64(frames as f64).saturating_sub(began.elapsed()));
+            if stream.write_all(format!("{}\n", player.line(frames)).as_bytes()).is_err() {
+                break;
+            }
+            frames += 1;
+        }
+        output::say(&format!("performed {frames} frames to {to}"))
     }
 }
 

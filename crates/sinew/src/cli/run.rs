@@ -211,6 +211,10 @@ impl Out {
             lines.extend(character.reaches.iter().map(|reach| format!("{name} reached: {}", reach.words())));
         }
         for (name, actor) in &report.actors {
+            if actor.received == 0 {
+                lines.push(format!("nobody performed {name}"));
+                continue;
+            }
             let latency = actor.latency_ms.map_or(String::new(), |latency| {
                 format!(", {:.1} ms to a frame ({:.1} ms for 99 %)", latency.p50, latency.p99)
             });
