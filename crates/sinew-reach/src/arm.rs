@@ -3,7 +3,7 @@
 use crate::compose::{ARMS, ArmNow};
 use crate::glide::Glide;
 use crate::hand_path::HandPath;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Pose, exp, log};
 
 /// An arm over time.
@@ -12,14 +12,71 @@ pub(crate) struct Arm {
     pub share: Glide<f64>,
     /// Where the target is now, and what is left of where it was.
     pub target: DVec3,
-    pub offset: Glide<DVec3>,
     pub bow: Glide<DVec3>,
     pub swivel: Glide<f64>,
     pub girdle: Glide<DVec3>,
-    /// Rotation vectors of shoulder, upper arm, lower arm and hand, carried.
-    pub carried: [Glide<DVec3>; 4],
+    /// Shoulder, upper arm, lower arm and hand where the arm is carried.
+    pub carried: [Carried; 4],
+    /// How far the way is led by the joints \[1\], and upper and lower arm at its end.
+    pub by_joints: Glide<f64>,
+    pub end: [DQuat; 2],
     /// The hand's way under `print`, with its start \[s\].
     pub printed: Option<(HandPath, f64)>,
+}
+
+/// A joint of a carried arm: a turn, and on it what passes, as a rotation vector.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Carried {
+    base: DQuat,
+    passes: Glide<DVec3>,
+    /// Where it hangs when it has let go.
+    home: DQuat,
+}
+
+/// For how long a joint that is taken over in its motion goes on at its speed, in all, and in what time it comes to rest \[s\].
+const GOES_ON_SECS: f64 = 0.12;
+const RESTS_SECS: f64 = 0.4;
+
+/// Fastest that a joint is taken over \[rad/s\].
+const FASTEST_RAD_S: f64 = 20.0;
+
+impl Carried {
+    fn rest(turn: DQuat) -> Carried {
+        Carried { base: DQuat::IDENTITY, passes: Glide::rest(log(turn)), home: turn }
+    }
+
+    /// The joint of a body that moves: most of what it has passes.
+    pub fn moving(now: DQuat, velocity: DVec3, share: f64, lasts: f64) -> Carried {
+        let turn = log(now);
+        Carried {
+            base: DQuat::IDENTITY,
+            passes: Glide::moving(0.0, turn, velocity, turn * share, lasts),
+            home: exp(turn * share),
+        }
+    }
+
+    fn at(&self, secs: f64) -> DQuat {
+        self.base * exp(self.passes.at(secs))
+    }
+
+    /// Where it comes to rest.
+    pub fn goal(&self) -> DQuat {
+        self.base * exp(self.passes.goal())
+    }
+
+    /// From now on it is carried as it is just now. `turns`: a moment before, now, and a moment after.
+    fn take_over(&mut self, now: f64, turns: [DQuat; 3], moment: f64) {
+        let [before, at, after] = turns;
+        let (back, on) = (log(at.conjugate() * before), log(at.conjugate() * after));
+        let velocity = ((on - back) / (2.0 * moment)).clamp_length_max(FASTEST_RAD_S);
+        let acceleration = (on + back) / (moment * moment);
+        self.base = at;
+        self.passes = Glide::between(now, RESTS_SECS, DVec3::ZERO, velocity, acceleration, velocity * GOES_ON_SECS);
+    }
+
+    fn go_home(&mut self, now: f64, lasts: f64) {
+        self.passes.go(now, log(self.base.conjugate() * self.home), 0.0, lasts);
+    }
 }
 
 impl Arm {
@@ -29,11 +86,12 @@ impl Arm {
         Arm {
             share: Glide::rest(0.0),
             target: DVec3::ZERO,
-            offset: rest,
             bow: rest,
             swivel: Glide::rest(0.0),
             girdle: rest,
-            carried: ARMS[side].map(|node| Glide::rest(log(pose.local(node)))),
+            carried: ARMS[side].map(|node| Carried::rest(pose.local(node))),
+            by_joints: Glide::rest(0.0),
+            end: [DQuat::IDENTITY; 2],
             printed: None,
         }
     }
@@ -46,12 +104,35 @@ impl Arm {
         };
         ArmNow {
             share,
-            target: self.target + self.offset.at(secs),
+            target: self.target,
             bow: self.bow.at(secs),
             swivel: self.swivel.at(secs),
             pronation: 0.0,
             girdle: self.girdle.at(secs),
-            carried: self.carried.map(|turn| exp(turn.at(secs))),
+            carried: self.carried.map(|joint| joint.at(secs)),
+            by_joints: self.by_joints.at(secs),
+            end: self.end,
+        }
+    }
+
+    /// Where it is on its way or at a target, it is from now on carried as it is, to set out anew. `turns`: upper arm, lower arm and
+    /// hand a moment before, now, and after.
+    pub fn set_out(&mut self, now: f64, turns: [[DQuat; 3]; 3], moment: f64) {
+        for joint in 0..3 {
+            self.carried[1 + joint].take_over(now, turns.map(|all| all[joint]), moment);
+        }
+        self.share = Glide::rest(0.0);
+        self.by_joints = Glide::rest(0.0);
+        self.printed = None;
+    }
+
+    /// Lets go in so many seconds.
+    pub fn let_go(&mut self, now: f64, lasts: f64) {
+        self.printed = None;
+        self.share.go(now, 0.0, 0.0, lasts);
+        self.girdle.go(now, DVec3::ZERO, 0.0, lasts);
+        for joint in &mut self.carried[1..] {
+            joint.go_home(now, lasts);
         }
     }
 }

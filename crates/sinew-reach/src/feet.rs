@@ -41,6 +41,9 @@ pub struct Support {
     pub yaw_rad: f64,
 }
 
+/// How long an arm swings for a stride \[1 of the stride's time\]: up to the landing forward, then back.
+const LINGERS: f64 = 2.0;
+
 /// Most strides that are planned ahead.
 pub const MOST_STRIDES: usize = 96;
 
@@ -51,21 +54,29 @@ pub struct Feet {
     /// Where they were before the strides.
     pub(crate) planted: [Placement; 2],
     strides: Vec<Stride>,
+    /// What feet carry before the strides and after each, flat and on their toes.
+    stances: Vec<[Support; 2]>,
     /// What is left of where the feet were when the reach began: shift \[m\] and turn (world) of each.
     pub(crate) rests: [(Glide<DVec3>, Glide<DVec3>); 2],
     linear: bool,
+    /// A stride that belongs to the start and is not forgotten.
+    closing: Option<Stride>,
 }
 
 impl Feet {
     /// Feet that stand.
     pub fn new(body: &Body, planted: [Placement; 2], linear: bool) -> Feet {
-        Feet {
+        let mut feet = Feet {
             soles: [Node::LeftFoot, Node::RightFoot].map(|foot| Sole::of(body, foot)),
             planted,
             strides: Vec::with_capacity(MOST_STRIDES),
+            stances: Vec::with_capacity(MOST_STRIDES + 1),
             rests: [(Glide::rest(DVec3::ZERO), Glide::rest(DVec3::ZERO)); 2],
             linear,
-        }
+            closing: None,
+        };
+        feet.stand_anew();
+        feet
     }
 
     /// The strides that are planned or under way.
@@ -78,25 +89,51 @@ impl Feet {
         let fits = self.strides.len() < MOST_STRIDES;
         if fits {
             self.strides.push(stride);
+            self.stances.push(self.supports_of(&self.last()));
         }
         fits
     }
 
-    /// Forgets strides that have not begun.
-    pub(crate) fn stop(&mut self, secs: f64) {
-        self.strides.retain(|stride| stride.start_secs <= secs);
+    /// The strides so far belong to the start: they are not forgotten.
+    pub(crate) fn keep_closing(&mut self) {
+        self.closing = self.strides.last().copied();
     }
 
-    /// Takes strides that are over into the planted feet.
+    /// Forgets strides that have not begun.
+    pub(crate) fn stop(&mut self, secs: f64) {
+        let before = self.strides.len();
+        let closing = self.closing;
+        self.strides.retain(|stride| stride.start_secs <= secs || Some(*stride) == closing);
+        if self.strides.len() < before {
+            self.stand_anew();
+        }
+    }
+
+    fn stand_anew(&mut self) {
+        self.stances.clear();
+        let mut stands = self.planted;
+        self.stances.push(self.supports_of(&stands));
+        for index in 0..self.strides.len() {
+            let stride = &self.strides[index];
+            stands[stride.side] = stride.to;
+            self.stances.push(self.supports_of(&stands));
+        }
+    }
+
+    /// Takes strides that are over, and the arms' swing with them, into the planted feet.
     pub(crate) fn settle(&mut self, secs: f64) {
+        let before = self.strides.len();
         let planted = &mut self.planted;
         self.strides.retain(|stride| {
-            let is_over = stride.start_secs + stride.for_secs <= secs;
+            let is_over = stride.start_secs + LINGERS * stride.for_secs <= secs;
             if is_over {
                 planted[stride.side] = stride.to;
             }
             !is_over
         });
+        if self.strides.len() < before {
+            self.stand_anew();
+        }
     }
 
     /// When the last foot lands \[s\]; none when all stand.
@@ -149,48 +186,85 @@ impl Feet {
 
     /// What a pair of planted feet carries.
     pub fn support_of(&self, feet: &[Placement; 2]) -> Support {
+        self.bearing(feet, false)
+    }
+
+    /// What they carry flat, and what on their toes.
+    pub(crate) fn supports_of(&self, feet: &[Placement; 2]) -> [Support; 2] {
+        [self.bearing(feet, false), self.bearing(feet, true)]
+    }
+
+    /// What they carry by the whole soles, or from the balls forward.
+    fn bearing(&self, feet: &[Placement; 2], on_toes: bool) -> Support {
+        let soles = self.soles.map(|sole| Sole { heel_m: if on_toes { sole.ball_m() } else { sole.heel_m }, ..sole });
         let middle = |side: usize, along: f64| {
-            let sole = &self.soles[side];
+            let sole = &soles[side];
             let place = &feet[side];
             place.ankle + DQuat::from_rotation_y(place.yaw_rad) * DVec3::new(sole.middle_m, -sole.ankle_m, along)
         };
         let along = |side: usize, share: f64| {
-            let sole = &self.soles[side];
+            let sole = &soles[side];
             sole.heel_m + share * (sole.toes_m - sole.heel_m)
         };
         let mean = |share: f64| (middle(0, along(0, share)) + middle(1, along(1, share))) * 0.5;
-        let centre = mean(0.42);
+        let centre = mean(if on_toes { 0.5 } else { 0.42 });
         let corners = [0, 1].map(|side| {
             let place = &feet[side];
             let turn = DQuat::from_rotation_y(place.yaw_rad);
-            self.soles[side].corners().map(|corner| place.ankle + turn * corner)
+            soles[side].corners().map(|corner| place.ankle + turn * corner)
         });
         let yaw_rad = feet[0].yaw_rad + 0.5 * (feet[1].yaw_rad - feet[0].yaw_rad);
         Support { centre, rest: mean(0.30), radius_m: inner_radius(&corners, centre).max(0.02), yaw_rad }
     }
 
-    /// What the feet carry at a time \[s\]: from stance to stance as the strides go.
+    /// What the feet carry at a time \[s\], flat: from stance to stance as the strides go.
     pub fn support(&self, secs: f64) -> Support {
-        let mut feet = self.planted;
-        let mut now = self.support_of(&feet);
-        let mut total = now;
-        for stride in &self.strides {
+        self.supports(secs)[0]
+    }
+
+    /// What they carry at a time \[s\] flat, and on their toes.
+    pub(crate) fn supports(&self, secs: f64) -> [Support; 2] {
+        let mut total = self.stances[0];
+        let mut stands = self.planted;
+        for (index, stride) in self.strides.iter().enumerate() {
             let share = (secs - stride.start_secs) / stride.for_secs;
-            feet[stride.side] = stride.to;
-            let next = self.support_of(&feet);
-            if share > 0.0 {
-                let go = if self.linear { share.min(1.0) } else { eased(share) };
+            stands[stride.side] = stride.to;
+            if share <= 0.0 {
+                continue;
+            }
+            let go = if self.linear { share.min(1.0) } else { eased(share) };
+            for on in 0..2 {
+                let (now, next) = (&self.stances[index][on], &self.stances[index + 1][on]);
+                let total = &mut total[on];
                 // The weight goes over the foot that stands, not all the way: a step is a fall that is caught.
-                let stands = feet[1 - stride.side].ankle - now.centre;
-                let sway = DVec3::new(stands.x, 0.0, stands.z) * (SWAY * arc(share.min(1.0)));
+                let over = stands[1 - stride.side].ankle - self.stances[index][0].centre;
+                let sway = DVec3::new(over.x, 0.0, over.z) * (SWAY * arc(share.min(1.0)));
                 total.centre += (next.centre - now.centre) * go + sway;
                 total.rest += (next.rest - now.rest) * go + sway;
                 total.radius_m += (next.radius_m - now.radius_m) * go;
                 total.yaw_rad += (next.yaw_rad - now.yaw_rad) * go;
             }
-            now = next;
         }
         total
+    }
+
+    /// How far an arm swings forward with the strides at a time \[s\], as for usual steps: with the leg of the other side, to
+    /// its end where that foot lands \[1\].
+    pub(crate) fn arm_swing(&self, side: usize, secs: f64, usual_step_m: f64) -> f64 {
+        let mut from = self.planted;
+        let mut swing = 0.0;
+        for stride in &self.strides {
+            let share = (secs - stride.start_secs) / (LINGERS * stride.for_secs);
+            let way = stride.to.ankle - from[stride.side].ankle;
+            from[stride.side] = stride.to;
+            if share > 0.0 && share < 1.0 {
+                let (sin, cos) = libm::sincos(stride.to.yaw_rad);
+                let length = (way.x * sin + way.z * cos) / usual_step_m;
+                let sign = if stride.side == side { -1.0 } else { 1.0 };
+                swing += sign * crate::head::soft(length, 1.3) * arc(share);
+            }
+        }
+        swing
     }
 }
 

@@ -18,13 +18,17 @@
 //! This crate knows nothing of worlds and engines.
 
 mod arm;
+mod arm_place;
 mod compose;
 mod dice;
 mod feet;
 mod follow;
+mod frame;
 mod glide;
 mod hand_path;
 mod head;
+mod heel;
+mod leg_place;
 mod legs;
 mod obstacle;
 mod outcome;

@@ -1,8 +1,9 @@
 //! What to do about a goal: step or not, and where trunk and arms go then.
 
 use crate::Dice;
+use crate::compose::ARMS;
 use crate::feet::Placement;
-use crate::legs::{StepKind, decide_step, ground_direction};
+use crate::legs::{StepChoice, StepKind, decide_step, ground_direction};
 use crate::outcome::{Outcome, Reason};
 use crate::reacher::Reacher;
 use crate::solve::{Aim, EXACT_M, Judged, Task};
@@ -29,6 +30,8 @@ pub(crate) struct Decision {
     /// How far each hand has to go against the body \[m\].
     pub ways_m: [f64; 2],
     pub turns_head_rad: f64,
+    /// Upper and lower arms there, against what they hang from.
+    pub arms: [[DQuat; 2]; 2],
     /// Where the hands end \[m\]: at their targets, or as near as they come.
     pub ends: [DVec3; 2],
     gap_m: f64,
@@ -61,23 +64,42 @@ const EXCESS_RAD: f64 = 0.01;
 const ROOM: f64 = 0.65;
 
 /// How near a stance brings the shoulder to the target \[of d_c\], tried in this order.
-const STAND_OFF: [f64; 4] = [0.75, 0.5, 0.95, 0.3];
+const STAND_OFF: [f64; 5] = [0.75, 0.5, 0.95, 0.3, 0.1];
 
 fn is_good(judged: &Judged) -> bool {
     judged.gap_m <= EXACT_M && judged.excess_rad <= EXCESS_RAD
 }
 
-/// What of two is better: arriving, then joints in their limits.
-fn is_better(one: &Judged, other: &Judged) -> bool {
-    let price = |judged: &Judged| judged.gap_m + 0.3 * (judged.excess_rad - EXCESS_RAD).max(0.0);
-    price(one) < price(other) - 1e-4
+/// What a plan misses: arriving, then joints in their limits.
+fn price(judged: &Judged) -> f64 {
+    judged.gap_m + 2.0 * (judged.excess_rad - EXCESS_RAD).max(0.0)
+}
+
+/// A stance and what is reached from it.
+struct Trial<'a> {
+    task: Task<'a>,
+    found: (Aim, Judged),
+    walk: Option<Walk>,
+}
+
+/// Of other stances, how many are searched.
+const SEARCHED: usize = 2;
+
+/// What is to be reached, seen by the planner.
+struct Errand {
+    targets: [Option<DVec3>; 2],
+    /// The one hand that reaches, if it is one.
+    side: Option<usize>,
+    /// Middle of the targets, and from the middle of the shoulders to it \[m\].
+    middle: DVec3,
+    d: DVec3,
+    foot_choice: f64,
+    near_choice: f64,
 }
 
 impl Reacher {
     /// Decides anew. With `again` the target has only moved on: no step unless it is needed.
     pub(crate) fn decide(&self, targets: [Option<DVec3>; 2], dice: &mut Dice, again: bool) -> Decision {
-        let task = self.task(targets);
-        let reaching: Vec<(usize, DVec3)> = (0..2).filter_map(|side| Some((side, targets[side]?))).collect();
         let mut decision = Decision {
             targets,
             walk: None,
@@ -85,125 +107,150 @@ impl Reacher {
             bow: [DVec3::ZERO; 2],
             ways_m: [0.0; 2],
             turns_head_rad: 0.0,
+            arms: [[DQuat::IDENTITY; 2]; 2],
             ends: targets.map(Option::unwrap_or_default),
             gap_m: 0.0,
             reason: None,
             swing_rad: 0.0,
         };
-        if reaching.is_empty() {
+        let task = self.task(targets);
+        let count = targets.iter().flatten().count();
+        if count == 0 {
             return decision;
         }
-        let middle: DVec3 = reaching.iter().map(|(_, target)| *target).sum::<DVec3>() / reaching.len() as f64;
-        let standing = task.composed(&Aim::default());
-        let shoulder: DVec3 =
-            reaching.iter().map(|(side, _)| standing.shoulders[*side]).sum::<DVec3>() / reaching.len() as f64;
-        let d = middle - shoulder;
-        let distance = libm::hypot(d.x, d.z);
-        let choice = if again { None } else { decide_step(distance, dice, &self.frame.values) };
-        let (foot_choice, near_choice) = (dice.unit(), dice.unit());
-        let feet = self.feet.last();
-        let here = Stance::of(&feet, &self.frame.values);
-        let one_side = if let [(side, _)] = reaching[..] { Some(side) } else { None };
-        let mut best: Option<(Aim, Judged, Option<Walk>)> = None;
-        let mut offer = |aim: Aim, judged: Judged, walk: Option<Walk>| {
-            if best.as_ref().is_none_or(|(_, before, _)| is_better(&judged, before)) {
-                best = Some((aim, judged, walk));
-            }
-            is_good(&judged)
-        };
-        let values = self.frame.values;
-        let print = self.style.print;
-        let mut done;
-        if let Some(step) = choice
-            && let Some(direction) = ground_direction(d)
-        {
-            // The paper's step, as long as EQ9 says; farther targets are walked to.
-            let turn = one_side.and_then(|side| {
-                let angle = reaching_angle(d, here.yaw_rad, side == 1)?;
-                Some(if side == 1 { -angle } else { angle })
-            });
-            let turn = turn.unwrap_or_else(|| wrapped(libm::atan2(d.x, d.z) - here.yaw_rad));
-            let left = distance - values.convenient_m * (0.7 + 0.25 * near_choice);
-            let is_far = !print && left > values.longest_step_m;
-            // Nobody steps so far that the hand has no room: the root goes half of a half step.
-            let root = if step.kind == StepKind::Half { 0.5 } else { 1.0 };
-            let room = ((distance - ROOM * values.convenient_m) / root).max(values.shortest_step_m);
-            let length = if is_far {
-                left
-            } else if print {
-                step.length_m
-            } else {
-                step.length_m.min(room)
-            };
-            let yaw_rad = here.yaw_rad + if is_far { turn } else { 0.35 * turn };
-            let first = first_foot(turn, one_side, foot_choice);
-            let to = Stance { middle: here.middle + direction * length, yaw_rad, ..here };
-            let walk = Walk { to, first, kind: step.kind };
-            let (aim, judged) = try_walk(&task, self, &feet, &walk).unwrap_or_else(|| task.solve());
-            done = offer(aim, judged, Some(walk));
-            if !done && !print && walk.kind == StepKind::Half {
-                let walk = Walk { kind: StepKind::Full, ..walk };
-                if let Some((aim, judged)) = try_walk(&task, self, &feet, &walk) {
-                    done = offer(aim, judged, Some(walk));
-                }
-            }
-        } else {
-            let (aim, judged) = task.solve();
-            done = offer(aim, judged, None);
-        }
-        if !done && !print {
-            // Past the paper: stand elsewhere, facing the target, at several distances.
-            let away = middle - here.middle;
-            let facing = libm::atan2(away.x, away.z);
-            for share in STAND_OFF {
-                let yaw_rad = if libm::hypot(away.x, away.z) > 0.05 { facing } else { here.yaw_rad };
-                let forward = DVec3::new(libm::sin(yaw_rad), 0.0, libm::cos(yaw_rad));
-                let flat = DVec3::new(middle.x, here.middle.y, middle.z);
-                let aside = match one_side {
-                    Some(side) => {
-                        DQuat::from_rotation_y(yaw_rad) * DVec3::X * if side == 0 { -0.1 } else { 0.1 } * values.arm_m
-                            / 0.63
-                    }
-                    None => DVec3::ZERO,
-                };
-                let to = Stance { middle: flat - forward * (share * values.convenient_m) + aside, yaw_rad, ..here };
-                let turn = wrapped(yaw_rad - here.yaw_rad);
-                let walk = Walk { to, first: first_foot(turn, one_side, foot_choice), kind: StepKind::Full };
-                if let Some((aim, judged)) = try_walk(&task, self, &feet, &walk)
-                    && offer(aim, judged, Some(walk))
-                {
-                    break;
-                }
+        let shoulders = task.composed(&Aim::default()).shoulders;
+        let reaching = (0..2).filter(|side| targets[*side].is_some());
+        let middle = targets.iter().flatten().sum::<DVec3>() / count as f64;
+        let d = middle - reaching.clone().map(|side| shoulders[side]).sum::<DVec3>() / count as f64;
+        let choice = if again { None } else { decide_step(libm::hypot(d.x, d.z), dice, &self.frame.values) };
+        let side = if count == 1 { reaching.clone().next() } else { None };
+        let errand = Errand { targets, side, middle, d, foot_choice: dice.unit(), near_choice: dice.unit() };
+        let trial = self.best_trial(task, choice, &errand);
+        let (aim, judged) = &trial.found;
+        let end = &judged.composed;
+        let carried = Task { targets: [None; 2], ..trial.task }.composed(aim).hands;
+        for side in reaching {
+            decision.ways_m[side] = targets[side].map_or(0.0, |target| (target - carried[side]).length());
+            if !self.style.print {
+                let forward = end.pose.world[1] * DVec3::Z;
+                decision.bow[side] = self.bow_around(end.shoulders[side], carried[side], end.hands[side], forward);
             }
         }
-        let Some((aim, judged, walk)) = best else { return decision };
-        let stance = walk.as_ref().map_or(feet, |walk| placed(walk, &feet));
-        let task = task.stance(&stance, self.feet.support_of(&stance));
-        let end = judged.composed;
-        let carried = {
-            let none = Task { targets: [None; 2], ..task };
-            none.composed(&aim).hands
-        };
-        decision.ways_m = [0, 1].map(|side| targets[side].map_or(0.0, |target| (target - carried[side]).length()));
-        if !print {
-            for side in 0..2 {
-                if targets[side].is_none() {
-                    continue;
-                }
-                decision.bow[side] =
-                    self.bow_around(end.shoulders[side], carried[side], end.hands[side], end.pose.world[1] * DVec3::Z);
-            }
-        }
+        decision.arms = ARMS.map(|[_, upper, lower, _]| [upper, lower].map(|node| end.pose.local(node)));
         decision.gap_m = judged.gap_m;
-        decision.swing_rad = signed_swing(&aim, d);
-        decision.turns_head_rad = head_turn(&end);
+        decision.swing_rad = signed_swing(aim, d);
+        decision.turns_head_rad = head_turn(end);
         if judged.gap_m > REACHED_M {
             decision.ends = end.hands;
-            decision.reason = Some(self.why(&reaching, &end, print && choice.is_some()));
+            decision.reason = Some(self.why(targets, end, self.style.print && choice.is_some()));
         }
-        decision.walk = walk;
-        decision.aim = aim;
+        (decision.walk, decision.aim) = (trial.walk, *aim);
         decision
+    }
+
+    /// The paper's stance if the hand arrives from it, else the best of several.
+    fn best_trial<'a>(&'a self, task: Task<'a>, choice: Option<StepChoice>, errand: &Errand) -> Trial<'a> {
+        let print = self.style.print;
+        let here = Trial { task, found: task.ruled(), walk: None };
+        let is_beyond = !print && self.is_beyond(errand);
+        let mut best = match choice.and_then(|step| self.step(&step, errand)) {
+            Some(walk) if !is_beyond => self.trial(&task, walk).unwrap_or(here),
+            _ => here,
+        };
+        if !is_beyond {
+            best.task.better(&mut best.found);
+        }
+        if is_good(&best.found.1) || print {
+            return best;
+        }
+        // Past the paper: the other foot too, or to stand elsewhere. All are looked at by the rules, the most promising searched.
+        let full =
+            best.walk.filter(|walk| walk.kind == StepKind::Half).map(|walk| Walk { kind: StepKind::Full, ..walk });
+        let mut others = STAND_OFF.map(|share| self.trial(&task, self.stand_off(share, errand)));
+        let mut full = full.and_then(|walk| self.trial(&task, walk));
+        for _ in 0..SEARCHED {
+            let Some(other) = others
+                .iter_mut()
+                .chain(std::iter::once(&mut full))
+                .filter(|other| other.is_some())
+                .min_by(|one, other| priced(one).total_cmp(&priced(other)))
+                .and_then(Option::take)
+            else {
+                break;
+            };
+            let mut other = other;
+            other.task.better(&mut other.found);
+            if price(&other.found.1) < price(&best.found.1) - 1e-4 {
+                best = other;
+            }
+            if is_good(&best.found.1) || is_beyond {
+                break;
+            }
+        }
+        best
+    }
+
+    /// Whether no stance brings the hand there: it is higher than the body on its toes, the arm straight up.
+    fn is_beyond(&self, errand: &Errand) -> bool {
+        let floor = self.feet.planted[0].ankle.y - self.frame.ankle_m;
+        errand.targets.iter().flatten().any(|target| target.y - floor > self.frame.highest_m)
+    }
+
+    /// The paper's step, as long as EQ9 says; farther targets are walked to.
+    fn step(&self, step: &StepChoice, errand: &Errand) -> Option<Walk> {
+        let (values, print, d) = (&self.frame.values, self.style.print, errand.d);
+        let direction = ground_direction(d)?;
+        let distance = libm::hypot(d.x, d.z);
+        let here = Stance::of(&self.feet.last(), values);
+        let turn = errand.side.and_then(|side| {
+            let angle = reaching_angle(d, here.yaw_rad, side == 1)?;
+            Some(if side == 1 { -angle } else { angle })
+        });
+        let turn = turn.unwrap_or_else(|| wrapped(libm::atan2(d.x, d.z) - here.yaw_rad));
+        let left = distance - values.convenient_m * (0.7 + 0.25 * errand.near_choice);
+        let is_far = !print && left > values.longest_step_m;
+        // Nobody steps so far that the hand has no room: the root goes half of a half step.
+        let root = if step.kind == StepKind::Half { 0.5 } else { 1.0 };
+        let room = ((distance - ROOM * values.convenient_m) / root).max(values.shortest_step_m);
+        let length = match (is_far, print) {
+            (true, _) => left,
+            (false, true) => step.length_m,
+            (false, false) => step.length_m.min(room),
+        };
+        let yaw_rad = here.yaw_rad + if is_far { turn } else { 0.35 * turn };
+        let to = Stance { middle: here.middle + direction * length, yaw_rad, ..here };
+        Some(Walk { to, first: first_foot(turn, errand.side, errand.foot_choice), kind: step.kind })
+    }
+
+    /// To stand a share of d_c from the target, facing it.
+    fn stand_off(&self, share: f64, errand: &Errand) -> Walk {
+        let values = &self.frame.values;
+        let here = Stance::of(&self.feet.last(), values);
+        let away = errand.middle - here.middle;
+        let yaw_rad = if libm::hypot(away.x, away.z) > 0.05 { libm::atan2(away.x, away.z) } else { here.yaw_rad };
+        let forward = DVec3::new(libm::sin(yaw_rad), 0.0, libm::cos(yaw_rad));
+        let flat = DVec3::new(errand.middle.x, here.middle.y, errand.middle.z);
+        let aside = errand.side.map_or(DVec3::ZERO, |side| {
+            DQuat::from_rotation_y(yaw_rad) * DVec3::X * if side == 0 { -0.1 } else { 0.1 } * values.arm_m / 0.63
+        });
+        let to = Stance { middle: flat - forward * (share * values.convenient_m) + aside, yaw_rad, ..here };
+        let turn = wrapped(yaw_rad - here.yaw_rad);
+        Walk { to, first: first_foot(turn, errand.side, errand.foot_choice), kind: StepKind::Full }
+    }
+
+    /// What is reached after a walk by the rules; none when it is too far.
+    fn trial<'a>(&'a self, task: &Task<'a>, walk: Walk) -> Option<Trial<'a>> {
+        let mut feet = self.feet.clone();
+        let mut steps = Vec::new();
+        let fits =
+            crate::walk::walk(&mut feet, &walk.to, walk.first, walk.kind, 0.0, 1.0, &self.frame.values, &mut steps);
+        if !fits {
+            return None;
+        }
+        // Of several strides the last foot depends on their number; where the feet really end is what counts.
+        let stance = if steps.is_empty() { placed(&walk, &self.feet.last()) } else { feet.last() };
+        let task = task.stance(&stance, self.feet.supports_of(&stance));
+        Some(Trial { task, found: task.ruled(), walk: Some(walk) })
     }
 
     /// How the way of a hand is bowed so that it does not come too near to its own shoulder: the arm would have to fold. The
@@ -219,13 +266,11 @@ impl Reacher {
         out * (lacks / hump.max(0.5)).min(wanted)
     }
 
-    fn why(&self, reaching: &[(usize, DVec3)], end: &crate::compose::Composed, one_step: bool) -> Reason {
+    fn why(&self, targets: [Option<DVec3>; 2], end: &crate::compose::Composed, one_step: bool) -> Reason {
         let arm = self.frame.values.arm_m;
-        let worst = reaching.iter().max_by(|a, b| {
-            let gap = |one: &(usize, DVec3)| (end.hands[one.0] - one.1).length();
-            gap(a).total_cmp(&gap(b))
-        });
-        let Some(&(side, target)) = worst else { return Reason::TooFar };
+        let gap = |side: usize| targets[side].map_or(0.0, |target| (end.hands[side] - target).length());
+        let side = usize::from(gap(1) > gap(0));
+        let Some(target) = targets[side] else { return Reason::TooFar };
         let miss = target - end.hands[side];
         let flat = libm::hypot(miss.x, miss.z);
         if end.stretch[side] < self.frame.exact_stretch().0 {
@@ -234,7 +279,9 @@ impl Reacher {
             Reason::TooHigh
         } else if -miss.y > flat {
             Reason::TooLow
-        } else if reaching.len() == 2 && (reaching[0].1 - reaching[1].1).length() > 2.2 * arm {
+        } else if let [Some(left), Some(right)] = targets
+            && (left - right).length() > 2.2 * arm
+        {
             Reason::TooFarApart
         } else if one_step {
             Reason::OneStep
@@ -260,17 +307,8 @@ fn placed(walk: &Walk, feet: &[Placement; 2]) -> [Placement; 2] {
     stance
 }
 
-fn try_walk(task: &Task, reacher: &Reacher, feet: &[Placement; 2], walk: &Walk) -> Option<(Aim, Judged)> {
-    let mut trial = reacher.feet.clone();
-    let mut steps = Vec::new();
-    let fits =
-        crate::walk::walk(&mut trial, &walk.to, walk.first, walk.kind, 0.0, 1.0, &reacher.frame.values, &mut steps);
-    if !fits {
-        return None;
-    }
-    // Of several strides the last foot depends on their number; where the feet really end is what counts.
-    let stance = if steps.is_empty() { placed(walk, feet) } else { trial.last() };
-    Some(task.stance(&stance, reacher.feet.support_of(&stance)).solve())
+fn priced(trial: &Option<Trial>) -> f64 {
+    trial.as_ref().map_or(f64::INFINITY, |trial| price(&trial.found.1))
 }
 
 /// Turning, the foot on that side goes first; else as a rule that of the reaching hand.

@@ -1,16 +1,17 @@
 //! Somebody who reaches: the pose of every instant, and goals that come.
 
 use crate::arm::Arm;
-use crate::compose::{Composed, Frame, Now};
+use crate::compose::{ARMS, ArmNow, Composed, Now};
 use crate::feet::Feet;
+use crate::frame::Frame;
 use crate::glide::Glide;
 use crate::outcome::{Outcome, Reason};
 use crate::solve::Task;
-use crate::start::{Start, placed_feet};
+use crate::start::{Start, close_stride, placed_feet};
 use crate::walk::Step;
 use crate::{Dice, Style, Values};
 use glam::DVec3;
-use sinew_body::humanoid::{Body, Pose, exp};
+use sinew_body::humanoid::{Body, Node, Pose, exp};
 
 /// Which hands are to reach what \[m\], world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -49,7 +50,11 @@ pub struct Reacher {
     pub(crate) swing: Glide<DVec3>,
     pub(crate) squat: Glide<f64>,
     pub(crate) lean: Glide<DVec3>,
+    pub(crate) tiptoe: Glide<f64>,
+    pub(crate) heels: Glide<f64>,
     pub(crate) look: Glide<f64>,
+    /// What is left of where it looked before.
+    pub(crate) gaze: Glide<DVec3>,
     pub(crate) arms: [Arm; 2],
     pub(crate) hips: [Glide<DVec3>; 2],
     pub(crate) trunk: [Glide<DVec3>; 3],
@@ -73,7 +78,8 @@ impl Reacher {
     pub fn new(body: &Body, style: &Style, start: &Start) -> Result<Reacher, crate::StyleError> {
         style.check()?;
         let frame = Frame::new(body, style);
-        let feet = Feet::new(body, placed_feet(start, body, frame.ankle_m), style.print);
+        let mut feet = Feet::new(body, placed_feet(start, body, frame.ankle_m), style.print);
+        close_stride(&mut feet, start, body, &frame.values);
         let rest = Glide::rest(DVec3::ZERO);
         let arms = [0, 1].map(|side| Arm::carried(side, &start.pose));
         let mut reacher = Reacher {
@@ -84,7 +90,10 @@ impl Reacher {
             swing: rest,
             squat: Glide::rest(0.0),
             lean: rest,
+            tiptoe: Glide::rest(0.0),
+            heels: Glide::rest(0.0),
             look: Glide::rest(0.0),
+            gaze: rest,
             arms,
             hips: [rest; 2],
             trunk: [rest; 3],
@@ -113,27 +122,40 @@ impl Reacher {
                 libm::atan2(toes.x, toes.z)
             }),
             knee_turn: self.knees.map(|turn| turn.at(secs)),
-            support: self.feet.support(secs),
+            support: self.feet.supports(secs),
             twist: self.twist.at(secs),
             swing: self.swing.at(secs),
             squat: self.squat.at(secs),
+            tiptoe: self.tiptoe.at(secs),
+            heels: self.heels.at(secs),
             hips_shift: self.hips[0].at(secs),
             hips_turn: self.hips[1].at(secs),
             trunk: self.trunk.map(|turn| turn.at(secs)),
             look_at: self.looks_at(secs),
             look: self.look.at(secs),
-            arms: [0, 1].map(|side| self.arms[side].at(secs)),
+            arms: [0, 1].map(|side| self.arm_at(side, secs)),
             lean: self.lean.at(secs),
         }
     }
 
+    /// An arm's controls at a time \[s\], swinging with the strides where it is carried.
+    fn arm_at(&self, side: usize, secs: f64) -> ArmNow {
+        let mut arm = self.arms[side].at(secs);
+        if !self.style.print {
+            let swing = ARM_SWING_RAD * self.feet.arm_swing(side, secs, self.frame.values.usual_step_m);
+            arm.carried[1] = exp(DVec3::X * -swing) * arm.carried[1];
+        }
+        arm
+    }
+
     fn looks_at(&self, secs: f64) -> DVec3 {
-        let target = |side: usize| self.arms[side].target + self.arms[side].offset.at(secs);
-        match self.goal {
+        let target = |side: usize| self.arms[side].target;
+        let at = match self.goal {
             [Some(_), Some(_)] => (target(0) + target(1)) * 0.5,
             [Some(_), None] => target(0),
             _ => target(1),
-        }
+        };
+        at + self.gaze.at(secs)
     }
 
     pub(crate) fn composed_at(&self, secs: f64) -> Composed {
@@ -167,6 +189,7 @@ impl Reacher {
     pub fn set_style(&mut self, style: &Style) -> Result<(), crate::StyleError> {
         style.check()?;
         self.frame.values = Values::of(&self.frame.body, style);
+        self.frame.has_heels = !style.print;
         self.style = *style;
         Ok(())
     }
@@ -195,9 +218,11 @@ impl Reacher {
     /// Reaches for a goal from now on. The outcome is known at once, because the whole way is planned.
     pub fn reach(&mut self, goal: &Goal) -> &Outcome {
         let now = self.now_secs;
+        let targets = [goal.left, goal.right].map(|target| target.filter(|target| target.is_finite()));
+        let looked = self.looks_at(now);
+        self.set_out(targets, now);
         self.feet.stop(now);
         self.steps.retain(|step| step.start_secs <= now);
-        let targets = [goal.left, goal.right].map(|target| target.filter(|target| target.is_finite()));
         let composed = self.composed_at(now);
         self.goal = targets;
         self.planned = targets;
@@ -208,14 +233,10 @@ impl Reacher {
         self.dice = dice;
         for side in (0..2).filter(|side| targets[*side].is_some()) {
             // Out of reach, the hand goes straight to the nearest point.
-            let (arm, end) = (&mut self.arms[side], decision.ends[side]);
-            if arm.share.at(now) <= 0.0 {
-                arm.offset = Glide::rest(DVec3::ZERO);
-            } else {
-                arm.offset.shift(arm.target - end);
-            }
-            arm.target = end;
+            self.arms[side].target = decision.ends[side];
+            self.arms[side].end = decision.arms[side];
         }
+        self.gaze.shift(looked - self.looks_at(now));
         self.schedule(&decision, &composed, now);
         if !self.style.print {
             self.mend_way(now);
@@ -228,6 +249,28 @@ impl Reacher {
         &self.outcome
     }
 
+    /// Arms that are to reach and are on their way or at a target already set out anew from where they are: their way is then
+    /// planned and looked at like any other.
+    fn set_out(&mut self, targets: [Option<DVec3>; 2], now: f64) {
+        let sets_out = [0, 1].map(|side| targets[side].is_some() && self.arms[side].share.at(now) > 0.0);
+        if sets_out == [false; 2] {
+            return;
+        }
+        let moments = [now - MOMENT_SECS, now, now + MOMENT_SECS].map(|secs| {
+            let controls = self.now(secs);
+            let pose = self.frame.compose(&controls).pose;
+            [0, 1].map(|side| {
+                let hang = self.frame.hang(&controls.arms[side], pose.world[Node::Chest.index()], controls.swing);
+                let swing = self.arms[side].at(secs).carried[1] * controls.arms[side].carried[1].conjugate();
+                let [_, upper, lower, hand] = ARMS[side].map(|node| pose.local(node));
+                [swing * hang.conjugate() * upper, lower, hand]
+            })
+        });
+        for side in (0..2).filter(|side| sets_out[*side]) {
+            self.arms[side].set_out(now, moments.map(|both| both[side]), MOMENT_SECS);
+        }
+    }
+
     /// Lets go: arms back to the sides, trunk upright, feet where they are.
     pub fn release(&mut self) {
         let now = self.now_secs;
@@ -238,11 +281,10 @@ impl Reacher {
         self.swing.go(now, DVec3::ZERO, 0.0, lasts);
         self.squat.go(now, 0.0, 0.0, lasts);
         self.lean.go(now, DVec3::ZERO, 0.0, lasts);
+        self.tiptoe.go(now, 0.0, 0.0, lasts);
         self.look.go(now, 0.0, 0.0, lasts);
         for arm in &mut self.arms {
-            arm.printed = None;
-            arm.share.go(now, 0.0, 0.0, lasts);
-            arm.girdle.go(now, DVec3::ZERO, 0.0, lasts);
+            arm.let_go(now, lasts);
         }
         self.outcome = Outcome { arrives_secs: now + lasts, reason: Some(Reason::Released), ..Outcome::default() };
     }
@@ -250,19 +292,26 @@ impl Reacher {
     /// The task from where the feet will stand, trunk straight, nothing left of the start.
     pub(crate) fn task(&self, targets: [Option<DVec3>; 2]) -> Task<'_> {
         let mut now = self.now(self.now_secs);
-        (now.twist, now.swing, now.squat, now.lean) = (0.0, DVec3::ZERO, 0.0, DVec3::ZERO);
+        (now.twist, now.swing, now.squat, now.lean, now.tiptoe) = (0.0, DVec3::ZERO, 0.0, DVec3::ZERO, 0.0);
         (now.hips_shift, now.hips_turn, now.trunk, now.knee_turn) =
             (DVec3::ZERO, DVec3::ZERO, [DVec3::ZERO; 3], [0.0; 2]);
         for side in 0..2 {
             let arm = &mut now.arms[side];
             (arm.share, arm.bow, arm.girdle) = (0.0, DVec3::ZERO, DVec3::ZERO);
-            arm.carried = self.arms[side].carried.map(|turn| exp(turn.goal()));
+            arm.by_joints = 0.0;
+            arm.carried = self.arms[side].carried.map(|joint| joint.goal());
         }
-        now.look = 1.0;
+        (now.look, now.heels) = (1.0, 1.0);
         if let Some(target) = targets[1].or(targets[0]) {
             now.look_at = target;
         }
         let feet = self.feet.last();
-        Task { frame: &self.frame, style: &self.style, now, targets }.stance(&feet, self.feet.support_of(&feet))
+        Task { frame: &self.frame, style: &self.style, now, targets }.stance(&feet, self.feet.supports_of(&feet))
     }
 }
+
+/// How far an arm swings with a usual step \[rad\].
+const ARM_SWING_RAD: f64 = 0.3;
+
+/// Time over which the motion of an arm that sets out anew is measured \[s\]. What the measure misses goes with its square.
+const MOMENT_SECS: f64 = 1e-3;

@@ -1,22 +1,26 @@
 //! The way of a hand looked at before it is gone: joints within their limits, arms clear of what is in the way. Where they are
 //! not, the way is bowed and the elbow swung aside; where that does not do, the hand stops before it touches.
 
+use crate::arm_place::Moment;
 use crate::compose::{ARMS, Composed};
 use crate::glide::Glide;
 use crate::outcome::Reason;
 use crate::reacher::Reacher;
-use glam::DVec3;
-use sinew_body::humanoid::Node;
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Node, log};
 
 /// Moments looked at on the way.
-const LOOKS: usize = 24;
+const LOOKS: usize = 48;
 
 /// How far an arm is to stay clear \[m\], and how near to its target what is there does not count: it is what is reached for.
 const CLEAR_M: f64 = 0.012;
 const AT_TARGET_M: f64 = 0.11;
 
 /// How far limits may be exceeded on the way, against the narrowed ones that plans keep \[rad\].
-const EXCESS_RAD: f64 = 0.028;
+const EXCESS_RAD: f64 = 0.042;
+
+/// How fast an upper arm may turn \[rad/s\]: beyond, the hand passes its own shoulder so near that the arm is thrown around.
+const FASTEST_RAD_S: f64 = 11.0;
 
 /// Ways of bowing tried, in turn: up, out, in, forward, back, down, by shares of the arm.
 const BOWS: [f64; 3] = [0.2, 0.4, 0.6];
@@ -29,17 +33,21 @@ struct Fault {
     deep_m: f64,
     /// How far joints are beyond their limits, at worst \[rad\].
     excess_rad: f64,
+    /// How fast the upper arm turns against its shoulder, at worst \[rad/s\].
+    fastest_rad_s: f64,
     /// When the arm first touches \[s\].
     touches_secs: Option<f64>,
 }
 
 impl Fault {
     fn is_none(&self) -> bool {
-        self.deep_m <= 0.0 && self.excess_rad <= EXCESS_RAD
+        self.deep_m <= 0.0 && self.excess_rad <= EXCESS_RAD && self.fastest_rad_s <= FASTEST_RAD_S
     }
 
     fn price(&self) -> f64 {
-        10.0 * self.deep_m + (self.excess_rad - EXCESS_RAD).max(0.0)
+        10.0 * self.deep_m
+            + (self.excess_rad - EXCESS_RAD).max(0.0)
+            + 0.02 * (self.fastest_rad_s - FASTEST_RAD_S).max(0.0)
     }
 }
 
@@ -59,69 +67,101 @@ impl Reacher {
     }
 
     fn mend_arm(&mut self, side: usize, now: f64) {
-        let mut least = self.look_at_way(side, now);
-        if least.is_none() {
+        let mut looks = self.looks(side, now);
+        let way = Way { bow: self.arms[side].bow.goal(), swivel: self.arms[side].swivel.goal(), by_joints: false };
+        let mut best = (self.fault_of(side, &way, &mut looks), way);
+        if best.0.is_none() {
             return;
         }
-        let usual = (self.arms[side].bow, self.arms[side].swivel);
-        let mut best = usual;
-        let is_new = self.arms[side].share.at(now) <= 0.0;
-        let (bow, swivel) = (usual.0.goal(), usual.1.goal());
-        let outward = if side == 0 { 1.0 } else { -1.0 };
-        let turn = glam::DQuat::from_rotation_y(self.feet.support(now).yaw_rad);
-        let ways = [DVec3::Y, DVec3::X * outward, DVec3::Z, DVec3::X * -outward, -DVec3::Z, -DVec3::Y];
-        let arm_m = self.frame.values.arm_m;
-        let bows = BOWS.iter().flat_map(|share| ways.map(|way| bow + turn * way * (share * arm_m)));
-        let bows: Vec<DVec3> = std::iter::once(bow).chain(std::iter::once(DVec3::ZERO)).chain(bows).collect();
-        'all: for swung in std::iter::once(0.0).chain(SWIVELS) {
-            for bow in &bows {
-                let end = self.outcome.arrives_secs;
-                let arm = &mut self.arms[side];
-                if is_new {
-                    (arm.bow, arm.swivel) = (Glide::rest(*bow), Glide::rest(swivel + swung));
-                } else {
-                    (arm.bow, arm.swivel) = usual;
-                    arm.bow.go(now, *bow, 0.0, end - now);
-                    arm.swivel.go(now, swivel + swung, 0.0, end - now);
-                }
-                let fault = self.look_at_way(side, now);
-                if fault.price() < least.price() - 1e-9 {
-                    (least, best) = (fault, (self.arms[side].bow, self.arms[side].swivel));
-                    if least.is_none() {
-                        break 'all;
-                    }
+        for other in self.other_ways(side, &way, best.0.deep_m > 0.0, now) {
+            let fault = self.fault_of(side, &other, &mut looks);
+            if fault.price() < best.0.price() - 1e-9 {
+                best = (fault, other);
+                if fault.is_none() {
+                    break;
                 }
             }
         }
-        (self.arms[side].bow, self.arms[side].swivel) = best;
-        if let Some(secs) = least.touches_secs
-            && least.deep_m > 0.0
+        let arm = &mut self.arms[side];
+        (arm.bow, arm.swivel) = (Glide::rest(best.1.bow), Glide::rest(best.1.swivel));
+        if best.1.by_joints {
+            let end = self.outcome.arrives_secs;
+            arm.by_joints = led_by_joints(arm.share.begins_secs().clamp(now, end), end);
+        }
+        if let Some(secs) = best.0.touches_secs
+            && best.0.deep_m > 0.0
         {
             self.stop_before(side, secs, now);
         }
     }
 
+    /// Ways to try instead, the most likely first.
+    fn other_ways(&self, side: usize, usual: &Way, touches: bool, now: f64) -> impl Iterator<Item = Way> + use<> {
+        let usual = *usual;
+        let outward = if side == 0 { 1.0 } else { -1.0 };
+        let turn = DQuat::from_rotation_y(self.feet.support(now).yaw_rad);
+        let arm_m = self.frame.values.arm_m;
+        let ways = [DVec3::Y, DVec3::X * outward, DVec3::Z, DVec3::X * -outward, -DVec3::Z, -DVec3::Y];
+        let bows = move || {
+            let aside =
+                BOWS.into_iter().flat_map(move |share| ways.map(|way| usual.bow + turn * way * (share * arm_m)));
+            [usual.bow, DVec3::ZERO].into_iter().chain(aside)
+        };
+        // Where only the joints are at fault, they lead the way themselves.
+        let by_joints = (!touches).then_some(Way { by_joints: true, ..usual });
+        let swung = std::iter::once(0.0).chain(SWIVELS);
+        by_joints.into_iter().chain(
+            swung.flat_map(move |by| bows().map(move |bow| Way { bow, swivel: usual.swivel + by, by_joints: false })),
+        )
+    }
+
     /// The hand goes as far as is clear.
     fn stop_before(&mut self, side: usize, secs: f64, now: f64) {
         let end = self.outcome.arrives_secs;
-        let share = self.arms[side].share.at((secs - (end - now) / LOOKS as f64).max(now));
+        let begins = self.arms[side].share.begins_secs().clamp(now, end);
+        let share = self.arms[side].share.at((secs - (end - begins) / LOOKS as f64).max(now));
         let from = (self.arms[side].share.end_secs() - now).max(0.2);
         self.arms[side].share.go(now, share.clamp(0.0, 1.0), 0.0, from);
         self.outcome.reason = Some(Reason::Blocked);
     }
 
-    fn look_at_way(&self, side: usize, now: f64) -> Fault {
+    /// The body at moments of the way.
+    fn looks(&self, side: usize, now: f64) -> Vec<Look> {
         let end = self.outcome.arrives_secs;
-        let mut fault = Fault::default();
-        let at_start = self.fault_at(side, &self.composed_at(now), now);
-        for index in 1..=LOOKS {
+        // Before, the arm is only carried.
+        let now = self.arms[side].share.begins_secs().clamp(now, end);
+        let look = |index: usize| {
             let secs = now + (end - now) * index as f64 / LOOKS as f64;
-            let composed = self.composed_at(secs);
-            let there = self.fault_at(side, &composed, secs);
+            let controls = self.now(secs);
+            Look { secs, led: led_by_joints(now, end).at(secs), moment: self.frame.moment(side, &controls) }
+        };
+        (0..=LOOKS).map(look).collect()
+    }
+
+    fn fault_of(&self, side: usize, way: &Way, looks: &mut [Look]) -> Fault {
+        let mut fault = Fault::default();
+        let mut at_start = Fault::default();
+        let mut before: Option<(f64, DQuat)> = None;
+        for (index, look) in looks.iter_mut().enumerate() {
+            let arm = &mut look.moment.arm;
+            (arm.bow, arm.swivel) = (way.bow, way.swivel);
+            arm.by_joints = if way.by_joints { look.led } else { 0.0 };
+            self.frame.place_again(side, &mut look.moment);
+            let there = self.fault_at(side, &look.moment.composed);
+            let upper = look.moment.composed.pose.local(ARMS[side][1]);
+            if let Some((secs, turn)) = before {
+                let speed = log(turn.conjugate() * upper).length() / (look.secs - secs).max(1e-6);
+                fault.fastest_rad_s = fault.fastest_rad_s.max(speed);
+            }
+            before = Some((look.secs, upper));
+            if index == 0 {
+                at_start = there;
+                continue;
+            }
             // Whoever begins beyond a limit or touching something may go on from there.
             let deep = there.deep_m.min((there.deep_m - at_start.deep_m).max(0.0));
             if deep > 0.0 && fault.touches_secs.is_none() {
-                fault.touches_secs = Some(secs);
+                fault.touches_secs = Some(look.secs);
             }
             fault.deep_m = fault.deep_m.max(deep);
             fault.excess_rad = fault.excess_rad.max(there.excess_rad - at_start.excess_rad);
@@ -129,7 +169,7 @@ impl Reacher {
         fault
     }
 
-    fn fault_at(&self, side: usize, composed: &Composed, _secs: f64) -> Fault {
+    fn fault_at(&self, side: usize, composed: &Composed) -> Fault {
         let pose = &composed.pose;
         let tight = &self.frame.tight;
         let excess =
@@ -162,6 +202,29 @@ impl Reacher {
         bone(hand, at[hand.index()], tip, &mut fault);
         fault
     }
+}
+
+/// How far the joints lead a way \[1\]: at the end, when the trunk is nearly there, the hand is led by its place.
+fn led_by_joints(begins: f64, end: f64) -> Glide<f64> {
+    let mut led = Glide::rest(1.0);
+    led.go(begins, 0.0, 0.85 * (end - begins), 0.15 * (end - begins));
+    led
+}
+
+/// How an arm gets there.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    bow: DVec3,
+    swivel: f64,
+    by_joints: bool,
+}
+
+/// The body at a moment of the way.
+struct Look {
+    secs: f64,
+    /// How far the joints would lead, if they did.
+    led: f64,
+    moment: Moment,
 }
 
 /// Obstacles that are looked at; more are passed over.

@@ -36,33 +36,31 @@ impl Reacher {
         // State 1: arm, head and twist. The default looks first, as people do.
         let head = if self.style.print { timing.arm } else { now };
         self.look.go(now, 1.0, from(head), timing.head);
+        self.gaze.go(now, DVec3::ZERO, 0.0, timing.head.max(0.3));
         self.twist.go(now, aim.twist, from(timing.arm), timing.twist);
         for side in 0..2 {
             let reaches = decision.targets[side].is_some();
             let arm = &mut self.arms[side];
             arm.printed = None;
-            arm.share.go(now, if reaches { 1.0 } else { 0.0 }, from(timing.arm), arms_secs);
+            if !reaches {
+                arm.let_go(now, from(timing.end));
+                continue;
+            }
             arm.girdle.go(now, aim.arms[side].girdle, from(timing.arm), arms_secs);
-            if reaches {
-                arm.offset.go(now, DVec3::ZERO, 0.0, from(timing.end));
-                if arm.share.at(now) <= 0.0 {
-                    arm.swivel = Glide::rest(aim.arms[side].swivel);
-                    arm.bow = Glide::rest(decision.bow[side]);
-                } else {
-                    arm.bow.go(now, decision.bow[side], 0.0, from(timing.end));
-                    arm.swivel.go(now, aim.arms[side].swivel, 0.0, from(timing.end));
-                }
-                if self.style.print {
-                    let speed = self.style.speed_m_s.unwrap_or(PRINTED_SPEED_M_S);
-                    let path = HandPath::new(composed.hands[side], arm.target, speed, PRINTED_RATIO);
-                    arm.printed = Some((path, timing.arm));
-                }
+            arm.share.go_early(now, 1.0, from(timing.arm), arms_secs);
+            (arm.swivel, arm.bow) = (Glide::rest(aim.arms[side].swivel), Glide::rest(decision.bow[side]));
+            arm.by_joints = Glide::rest(0.0);
+            if self.style.print {
+                let speed = self.style.speed_m_s.unwrap_or(PRINTED_SPEED_M_S);
+                let path = HandPath::new(composed.hands[side], arm.target, speed, PRINTED_RATIO);
+                arm.printed = Some((path, timing.arm));
             }
         }
         // State 2: swing, squat and the balance's lean.
         self.swing.go(now, aim.swing, from(timing.swing), timing.swings);
         self.squat.go(now, aim.squat, from(timing.swing), timing.swings);
         self.lean.go(now, aim.lean, from(timing.swing), timing.swings);
+        self.tiptoe.go(now, aim.tiptoe, from(timing.swing), timing.swings);
         // State 3: the arm has arrived.
         self.outcome = decision.outcome(timing.end, &self.steps);
     }
@@ -85,6 +83,7 @@ impl Reacher {
         self.swing.go(now, aim.swing, 0.0, lasts);
         self.squat.go(now, aim.squat, 0.0, lasts);
         self.lean.go(now, aim.lean, 0.0, lasts);
+        self.tiptoe.go(now, aim.tiptoe, 0.0, lasts);
         let mut arrives = now;
         for side in 0..2 {
             if decision.targets[side].is_none() {
@@ -125,7 +124,8 @@ impl Reacher {
         let swing = if turn > 0.01 { arm + self.style.overlap_twist * twist } else { arm };
         let bend = (decision.aim.swing - self.swing.at(now)).length();
         let sink = (decision.aim.squat - self.squat.at(now)).abs() / values.leg_m;
-        let swings = pace * (0.45 + (bend / 1.7).max(sink / 0.42));
+        let rise = (decision.aim.tiptoe - self.tiptoe.at(now)).abs();
+        let swings = pace * (0.45 + (bend / 1.7).max(sink / 0.42).max(rise / 1.3));
         let mut hands: f64 = 0.0;
         for side in 0..2 {
             if decision.targets[side].is_some() {

@@ -1,7 +1,9 @@
 //! The posture in which hands reach their targets from a stance: the paper's rules first, then a search where they do not do.
 
-use crate::compose::{ARMS, Composed, Frame, Now};
+use crate::compose::{ARMS, Composed, Now};
 use crate::feet::{Placement, Support};
+use crate::frame::Frame;
+use crate::heel::{LEAN_FIRST_RAD, MOST_RAD};
 use crate::spine::{search_twist, squat_for, swing_axis};
 use crate::{Style, Values};
 use glam::{DQuat, DVec3};
@@ -14,6 +16,8 @@ pub(crate) struct Aim {
     pub swing: DVec3,
     pub squat: f64,
     pub lean: DVec3,
+    /// How far the body rises on its toes, with the lean before it \[rad\].
+    pub tiptoe: f64,
     pub arms: [ArmAim; 2],
 }
 
@@ -50,7 +54,7 @@ pub(crate) struct Task<'a> {
 pub(crate) const EXACT_M: f64 = 2e-4;
 
 impl Task<'_> {
-    pub fn stance(mut self, feet: &[Placement; 2], support: Support) -> Self {
+    pub fn stance(mut self, feet: &[Placement; 2], support: [Support; 2]) -> Self {
         self.now.feet = feet.map(|foot| (foot.ankle, DQuat::from_rotation_y(foot.yaw_rad)));
         self.now.foot_yaw = feet.map(|foot| foot.yaw_rad);
         self.now.support = support;
@@ -65,6 +69,7 @@ impl Task<'_> {
     fn with(&self, aim: &Aim) -> Now {
         let mut now = self.now;
         (now.twist, now.swing, now.squat, now.lean) = (aim.twist, aim.swing, aim.squat, aim.lean);
+        now.tiptoe = aim.tiptoe;
         for side in 0..2 {
             let arm = &mut now.arms[side];
             (arm.swivel, arm.girdle) = (aim.arms[side].swivel, aim.arms[side].girdle);
@@ -105,11 +110,14 @@ impl Task<'_> {
             + 0.04 * aim.swing.length_squared()
             + 0.3 / (self.style.flexibility * self.style.flexibility) * (aim.squat / scale) * (aim.squat / scale)
             + 0.5 * aim.lean.length_squared() / (scale * scale)
+            + 0.5 * aim.tiptoe * aim.tiptoe
             + 0.01 * elbows;
         let beyond = (aim.swing.length() - self.values().most_swing_rad).max(0.0)
             + (aim.squat - self.values().most_squat_m).max(0.0)
-            + (-aim.squat).max(0.0);
-        let cost = 40.0 * gaps / scale + 6.0 * excess_rad + 8.0 * strain + 0.3 * unease_rad + effort + 100.0 * beyond;
+            + (-aim.squat).max(0.0)
+            + (aim.tiptoe - MOST_TIPTOE_RAD).max(0.0)
+            + (-aim.tiptoe).max(0.0);
+        let cost = 40.0 * gaps / scale + 30.0 * excess_rad + 8.0 * strain + 0.3 * unease_rad + effort + 100.0 * beyond;
         Judged { composed, gap_m, excess_rad, unease_rad, cost }
     }
 
@@ -119,14 +127,14 @@ impl Task<'_> {
         aim.arms.iter_mut().for_each(|arm| arm.swivel = USUAL_SWIVEL);
         let reaching: Vec<(usize, DVec3)> = (0..2).filter_map(|side| Some((side, self.targets[side]?))).collect();
         let Some(&(first, target)) = reaching.first() else { return aim };
-        let yaw = self.now.support.yaw_rad;
+        let yaw = self.now.support[0].yaw_rad;
         if let [(side, target)] = reaching[..] {
-            let shoulder = |twist: f64| self.composed(&Aim { twist, ..aim }).shoulders[side];
+            let shoulder = |twist: f64| self.frame.led_shoulder(side, &self.with(&Aim { twist, ..aim }));
             aim.twist = search_twist(target, yaw, side == 1, self.values(), shoulder);
         } else {
             // Both hands: the trunk faces the middle of the two.
             let middle = (reaching[0].1 + reaching[1].1) * 0.5;
-            let away = middle - self.now.support.rest;
+            let away = middle - self.now.support[0].rest;
             let turn = crate::spine::wrapped(libm::atan2(away.x, away.z) - yaw);
             let far = libm::hypot(away.x, away.z) > 0.3 * self.values().arm_m;
             aim.twist = if far { turn.clamp(-self.values().most_twist_rad, self.values().most_twist_rad) } else { 0.0 };
@@ -150,27 +158,46 @@ impl Task<'_> {
         };
         let enough = self.values().stretch.0;
         let mut best = (worst(&aim), 0.0);
+        if best.0 > self.values().stretch.1 && d.y > self.values().start_swing_m && self.frame.has_heels {
+            // Up on the toes where the stretched arm does not do, as far as it takes.
+            for share in TIPTOES {
+                let tiptoe = share * MOST_TIPTOE_RAD;
+                let stretch = worst(&Aim { tiptoe, ..aim });
+                if stretch < best.0 - 1e-3 {
+                    (aim.tiptoe, best.0) = (tiptoe, stretch);
+                }
+                if stretch <= enough {
+                    break;
+                }
+            }
+        }
         if best.0 > enough {
-            let step = 3.0_f64.to_radians();
-            let most = (self.values().most_swing_rad / step) as i32;
-            for sign in [1.0, -1.0] {
-                // Leaning away lifts a shoulder towards what is high; nobody leans far that way.
-                let most = if sign > 0.0 {
-                    most
-                } else if d.y > self.values().start_swing_m {
-                    8
-                } else {
-                    0
-                };
-                for index in 1..=most {
-                    let angle = sign * step * f64::from(index);
-                    let stretch = worst(&Aim { swing: axis * angle, ..aim });
-                    let less = angle.abs() < f64::abs(best.1) && stretch <= enough;
-                    if (best.0 > enough && stretch < best.0) || less {
-                        best = (stretch, angle);
+            // Leaning away lifts a shoulder towards what is high; nobody leans far that way.
+            let back = if d.y > self.values().start_swing_m { 24.0_f64.to_radians() } else { 0.0 };
+            for (sign, most) in [(1.0, self.values().most_swing_rad), (-1.0, back)] {
+                let (mut inside, mut angle) = (0.0, 0.0);
+                while angle + 0.5 * SWING_STEP_RAD < most {
+                    angle += SWING_STEP_RAD;
+                    let stretch = worst(&Aim { swing: axis * (sign * angle), ..aim });
+                    if best.0 > enough && stretch < best.0 || stretch <= enough && angle < f64::abs(best.1) {
+                        best = (stretch, sign * angle);
                     }
                     if stretch <= enough || stretch > best.0 + 0.2 {
                         break;
+                    }
+                    inside = angle;
+                }
+                if best.0 <= enough && best.1 == sign * angle {
+                    // As little as does.
+                    let mut enough_at = angle;
+                    for _ in 0..SWING_HALVINGS {
+                        let middle = 0.5 * (inside + enough_at);
+                        let stretch = worst(&Aim { swing: axis * (sign * middle), ..aim });
+                        if stretch <= enough {
+                            (enough_at, best) = (middle, (stretch, sign * middle));
+                        } else {
+                            inside = middle;
+                        }
                     }
                 }
             }
@@ -194,87 +221,128 @@ impl Task<'_> {
         }
     }
 
-    /// The best aim that is found.
-    pub fn solve(&self) -> (Aim, Judged) {
+    /// The paper's rules, and the elbow where the arm's joints are best off.
+    pub fn ruled(&self) -> (Aim, Judged) {
         let mut aim = self.by_rule();
         let mut judged = self.judge(&aim);
         if judged.excess_rad > 0.0 || judged.unease_rad > 0.0 {
             self.swivel_arms(&mut aim, &mut judged);
         }
-        let strained = judged
-            .composed
-            .stretch
-            .iter()
-            .zip(self.targets)
-            .any(|(stretch, target)| target.is_some() && *stretch > self.values().stretch.0 + 0.005);
-        if judged.gap_m > EXACT_M || judged.excess_rad > 0.0 || (strained && !self.style.print) {
-            self.search(&mut aim, &mut judged);
-        }
         (aim, judged)
     }
 
-    fn swivel_arms(&self, aim: &mut Aim, judged: &mut Judged) {
-        for side in 0..2 {
-            if self.targets[side].is_none() {
-                continue;
-            }
-            for index in -9..=9 {
-                let mut other = *aim;
-                other.arms[side].swivel = USUAL_SWIVEL + f64::from(index) * 0.2;
-                let there = self.judge(&other);
-                if there.cost < judged.cost {
-                    (*aim, *judged) = (other, there);
-                }
-            }
+    /// Searches on where the hand does not arrive, or not with ease.
+    pub fn better(&self, (aim, judged): &mut (Aim, Judged)) {
+        let is_strained = (0..2).any(|side| {
+            self.targets[side].is_some() && judged.composed.stretch[side] > self.values().stretch.0 + 0.005
+        });
+        if judged.gap_m > EXACT_M || judged.excess_rad > 0.0 || (is_strained && !self.style.print) {
+            self.search(aim, judged);
         }
     }
 
-    /// Goes downhill one coordinate at a time with ever smaller steps.
+    /// The swivel of each arm at which its joints are best off, all else as it is.
+    fn swivel_arms(&self, aim: &mut Aim, judged: &mut Judged) {
+        let mut other = *aim;
+        for side in (0..2).filter(|side| self.targets[*side].is_some()) {
+            let mut best = (f64::INFINITY, aim.arms[side].swivel);
+            for index in -9..=9 {
+                let swivel = USUAL_SWIVEL + f64::from(index) * 0.2;
+                let price = self.price_of_arm(&judged.composed, side, swivel);
+                if price < best.0 {
+                    best = (price, swivel);
+                }
+            }
+            other.arms[side].swivel = best.1;
+        }
+        let there = self.judge(&other);
+        if there.cost < judged.cost {
+            (*aim, *judged) = (other, there);
+        }
+    }
+
+    /// What a swivel costs in a posture of the rest of the body, as in [`Task::judge`].
+    fn price_of_arm(&self, composed: &Composed, side: usize, swivel: f64) -> f64 {
+        let [shoulder, upper, lower, _] = ARMS[side];
+        let Some(target) = self.targets[side] else { return 0.0 };
+        let parent = (composed.shoulders[side], composed.pose.world[shoulder.index()]);
+        let Some((one, other)) = self.frame.arm_to(side, parent, target, swivel) else { return f64::INFINITY };
+        let excess = self.frame.tight.link(upper).limit.excess(one) + self.frame.tight.link(lower).limit.excess(other);
+        let unease = self.frame.easy.link(upper).limit.excess(one);
+        30.0 * excess + 0.3 * unease + 0.01 * (swivel - USUAL_SWIVEL) * (swivel - USUAL_SWIVEL)
+    }
+
+    /// Goes downhill one coordinate at a time, each by steps of its own that shrink where neither way is down.
     fn search(&self, aim: &mut Aim, judged: &mut Judged) {
-        let yaw = self.now.support.yaw_rad + aim.twist;
-        let (sin, cos) = libm::sincos(yaw);
-        let (across, along) = (DVec3::new(cos, 0.0, -sin), DVec3::new(sin, 0.0, cos));
-        let leg = self.values().leg_m;
-        let mut scale = 1.0;
-        while scale > SMALLEST {
-            let mut better = false;
+        let yaw = self.now.support[0].yaw_rad + aim.twist;
+        let mut steps = [1.0; COORDINATES];
+        let mut looks = 0;
+        let is_done = |judged: &Judged| judged.gap_m <= EXACT_M && judged.excess_rad <= 0.0;
+        while looks < MOST_LOOKS && steps.iter().any(|step: &f64| step.abs() > SMALLEST) {
             for coordinate in 0..COORDINATES {
-                for sign in [1.0, -1.0] {
-                    let by = sign * scale;
-                    let mut other = *aim;
-                    match coordinate {
-                        0 => {
-                            other.twist = (aim.twist + 0.2 * by)
-                                .clamp(-self.values().most_twist_rad, self.values().most_twist_rad)
-                        }
-                        1 => other.swing += across * (0.2 * by),
-                        2 => other.swing += along * (0.2 * by),
-                        3 => other.squat += 0.08 * leg * by,
-                        4 => other.lean += along * (0.03 * leg * by),
-                        5 => other.lean += across * (0.03 * leg * by),
-                        6 if self.targets[0].is_some() => other.arms[0].swivel += 0.4 * by,
-                        7 if self.targets[1].is_some() => other.arms[1].swivel += 0.4 * by,
-                        _ => continue,
-                    }
+                if steps[coordinate].abs() <= SMALLEST {
+                    continue;
+                }
+                let mut better = false;
+                for _ in 0..2 {
+                    let Some(other) = self.changed(aim, coordinate, steps[coordinate], yaw) else {
+                        steps[coordinate] = 0.0;
+                        break;
+                    };
+                    looks += 1;
                     let there = self.judge(&other);
                     if there.cost < judged.cost - 1e-9 {
                         (*aim, *judged) = (other, there);
                         better = true;
                         break;
                     }
+                    steps[coordinate] = -steps[coordinate];
                 }
-            }
-            if !better {
-                scale *= 0.5;
+                steps[coordinate] *= if better { 1.4 } else { 0.5 };
+                if is_done(judged) && looks >= ENOUGH_LOOKS {
+                    return;
+                }
             }
         }
     }
+
+    /// An aim changed along one coordinate, none where there is nothing to change.
+    fn changed(&self, aim: &Aim, coordinate: usize, by: f64, yaw: f64) -> Option<Aim> {
+        let (sin, cos) = libm::sincos(yaw);
+        let (across, along) = (DVec3::new(cos, 0.0, -sin), DVec3::new(sin, 0.0, cos));
+        let (leg, most_twist) = (self.values().leg_m, self.values().most_twist_rad);
+        let mut other = *aim;
+        match coordinate {
+            0 => other.twist = (aim.twist + 0.2 * by).clamp(-most_twist, most_twist),
+            1 => other.swing += across * (0.2 * by),
+            2 => other.swing += along * (0.2 * by),
+            3 => other.squat += 0.08 * leg * by,
+            4 => other.lean += along * (0.03 * leg * by),
+            5 => other.lean += across * (0.03 * leg * by),
+            6 if self.frame.has_heels => other.tiptoe = (aim.tiptoe + 0.2 * by).max(0.0),
+            7 if self.targets[0].is_some() => other.arms[0].swivel += 0.4 * by,
+            8 if self.targets[1].is_some() => other.arms[1].swivel += 0.4 * by,
+            _ => return None,
+        }
+        Some(other)
+    }
 }
+
+/// How far a body rises on its toes, the lean before it with it \[rad\], and the shares that are tried.
+const MOST_TIPTOE_RAD: f64 = LEAN_FIRST_RAD + MOST_RAD;
+const TIPTOES: [f64; 4] = [0.35, 0.5, 0.75, 1.0];
+
+/// Steps in which the swing grows, and how often the last is halved: to about a degree.
+const SWING_STEP_RAD: f64 = 9.0 * std::f64::consts::PI / 180.0;
+const SWING_HALVINGS: usize = 3;
 
 /// How far out the elbow is by habit \[rad\].
 pub(crate) const USUAL_SWIVEL: f64 = 0.0;
 
-const COORDINATES: usize = 8;
+const COORDINATES: usize = 9;
 
-/// The search ends at this share of its first steps.
-const SMALLEST: f64 = 0.004;
+/// The search ends when all steps are smaller than this share of the first ones, after so many looks, or after fewer once the hand
+/// arrives within all limits.
+const SMALLEST: f64 = 0.012;
+const MOST_LOOKS: usize = 150;
+const ENOUGH_LOOKS: usize = 30;

@@ -80,7 +80,9 @@ pub fn stoop_range_m(flexibility: f64, values: &Values) -> f64 {
     values.arm_m / flexibility
 }
 
-/// How far the hips sink for a target so far below the shoulder \[m\]: what the stoop range leaves.
+/// How far the hips sink for a target so far below the shoulder \[m\]: as much as the stoop range leaves, or half as much again
+/// (see [`Values::squat_per_excess`]).
 pub fn squat_for(below_m: f64, flexibility: f64, values: &Values) -> f64 {
-    (below_m - stoop_range_m(flexibility, values)).clamp(0.0, values.most_squat_m)
+    let excess = below_m - stoop_range_m(flexibility, values);
+    (values.squat_per_excess * excess).clamp(0.0, values.most_squat_m)
 }

@@ -1,9 +1,13 @@
 //! The pose out of which a reach begins, and how what it has beyond a standing body's passes.
 
+use crate::Values;
+use crate::arm::Carried;
 use crate::compose::ARMS;
-use crate::feet::Placement;
+use crate::feet::{Feet, Placement};
 use crate::glide::Glide;
+use crate::legs::StepKind;
 use crate::reacher::Reacher;
+use crate::walk::Stance;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, LEGS, Node, Pose, log};
 
@@ -52,6 +56,32 @@ fn lands_ahead(start: &Start, body: &Body, foot: Node) -> DVec3 {
     (flat * (LANDS_SECS * moves)).clamp_length_max(0.45 * body.stature_m() / 1.7)
 }
 
+/// Whoever is caught in a long stride sets the foot that stands behind beside the other, as soon as that has landed.
+pub(crate) fn close_stride(feet: &mut Feet, start: &Start, body: &Body, values: &Values) {
+    let Some((before, ago)) = &start.before else { return };
+    let velocity = (start.pose.hips_position - before.hips_position) / ago.max(1e-3);
+    let Some(forward) = DVec3::new(velocity.x, 0.0, velocity.z).try_normalize() else { return };
+    let mut placed = feet.last();
+    let ahead = (placed[0].ankle - placed[1].ankle).dot(forward);
+    let (behind, front) = if ahead < 0.0 { (0, 1) } else { (1, 0) };
+    let (_, _, foot) = LEGS[behind];
+    let moved = start.pose.positions(body)[foot.index()] - before.positions(body)[foot.index()];
+    if ahead.abs() < LONG_STRIDE * values.usual_step_m || moved.length() / ago.max(1e-3) > STANDS_M_S {
+        return;
+    }
+    let stance = Stance::of(&placed, values);
+    let aside = (stance.foot(behind).ankle - stance.foot(front).ankle).length() * if behind == 0 { 1.0 } else { -1.0 };
+    let yaw_rad = placed[front].yaw_rad;
+    let beside = placed[front].ankle + DQuat::from_rotation_y(yaw_rad) * DVec3::X * aside;
+    let to = Placement { ankle: beside, yaw_rad };
+    crate::walk::stride(feet, &mut placed, behind, to, StepKind::Full, LANDS_SECS, 1.0, values, None);
+    feet.keep_closing();
+}
+
+/// A stride this long \[1 of the usual step\] is closed; a foot slower than this stands \[m/s\].
+const LONG_STRIDE: f64 = 0.6;
+const STANDS_M_S: f64 = 0.6;
+
 /// A foot in the air goes on for so long at its speed, in all, until it stands \[s\].
 const LANDS_SECS: f64 = 0.2;
 
@@ -72,6 +102,7 @@ impl Reacher {
             let velocity = then.map_or(DVec3::ZERO, |(then, ago)| (now - then) / ago.max(1e-3));
             Glide::moving(0.0, now, velocity.clamp_length_max(20.0), DVec3::ZERO, lasts)
         };
+        self.heels.go(0.0, 1.0, 0.0, lasts);
         // A body that moves goes on for a little: it comes to stand where its feet land.
         let turn = |pose: &Pose| log(pose.world[0] * plain.world[0].conjugate());
         self.hips = [
@@ -88,9 +119,9 @@ impl Reacher {
         if let Some((pose, ago)) = before {
             for side in 0..2 {
                 for (index, node) in ARMS[side].into_iter().enumerate() {
-                    let (now, then) = (log(own.local(node)), log(pose.local(node)));
-                    self.arms[side].carried[index] =
-                        Glide::moving(0.0, now, (now - then) / ago.max(1e-3), now * CARRIED_ON, lasts);
+                    let (now, then) = (own.local(node), pose.local(node));
+                    let velocity = (log(now) - log(then)) / ago.max(1e-3);
+                    self.arms[side].carried[index] = Carried::moving(now, velocity, CARRIED_ON, lasts);
                 }
             }
         }

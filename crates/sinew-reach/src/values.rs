@@ -108,11 +108,14 @@ pub struct Values {
     /// The start swing distance: how far over or under the shoulder a target may be before the spine swings, 0.55 arm
     /// lengths \[m\].
     pub start_swing_m: f64,
-    /// How far the hips may sink, 0.52 leg lengths \[m\].
+    /// How far the hips may sink, 0.7 leg lengths \[m\].
     pub most_squat_m: f64,
     /// Share of a swing that the hips take; the chest takes the rest (lumbar and thoracic spine are one joint here). The paper's
     /// thirds under `print`.
     pub hips_share_of_swing: f64,
+    /// How far the hips sink for what a target is lower than the stoop range \[1\]. The paper says only that they sink; people go
+    /// deeper than they must and keep the trunk upright.
+    pub squat_per_excess: f64,
     /// How far arms stretch for comfort, and at most \[1 of the arm's length\].
     pub stretch: (f64, f64),
     /// How high a foot is lifted, 0.11 leg lengths \[m\].
@@ -120,6 +123,9 @@ pub struct Values {
     /// Time of one step \[s\].
     pub step_secs: f64,
 }
+
+/// Peak of a hand's speed against its mean \[1\], see [`Glide::go_early`](crate::Glide::go_early).
+const EARLY_PEAK: f64 = 2.263;
 
 impl Values {
     /// The values for a body.
@@ -146,8 +152,9 @@ impl Values {
             most_swing_rad: 120.0_f64.to_radians(),
             most_root_shift_m: 0.118 * leg_m,
             start_swing_m: 0.55 * arm_m,
-            most_squat_m: 0.52 * leg_m,
+            most_squat_m: 0.7 * leg_m,
             hips_share_of_swing: if style.print { 1.0 / 3.0 } else { 0.5 },
+            squat_per_excess: if style.print { 1.0 } else { 1.5 },
             stretch: (0.93, 0.975),
             foot_lift_m: 0.11 * leg_m,
             step_secs: 0.62 * pace,
@@ -158,8 +165,7 @@ impl Values {
     /// their hands less than in proportion to the way.
     pub fn hand_secs(&self, way_m: f64, style: &Style) -> f64 {
         match style.speed_m_s {
-            // A minimum-jerk motion peaks at 15/8 of its mean speed.
-            Some(peak) => (1.875 * way_m / peak).max(0.15),
+            Some(peak) => (EARLY_PEAK * way_m / peak).max(0.15),
             None => 0.45 + 0.85 * way_m * (0.63 / self.arm_m.max(1e-3)),
         }
     }

@@ -107,7 +107,7 @@ pub(crate) fn walk(
 
 /// Adds one stride and returns when the next may begin.
 #[allow(clippy::too_many_arguments, reason = "a stride is all of these")]
-fn stride(
+pub(crate) fn stride(
     feet: &mut Feet,
     at: &mut [Placement; 2],
     side: usize,

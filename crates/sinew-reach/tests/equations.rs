@@ -4,8 +4,8 @@
 use glam::DVec3;
 use sinew_body::humanoid::{Body, exp};
 use sinew_reach::{
-    HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S, Style, Values, ground_direction, root_shift, step_length, swing_axis,
-    swing_shares, twist_shares,
+    Glide, HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S, Style, Values, ground_direction, root_shift, step_length,
+    swing_axis, swing_shares, twist_shares,
 };
 
 fn values() -> Values {
@@ -145,4 +145,30 @@ fn eq9_the_step_length_blends_the_shortest_and_the_longest() {
     // The usual step of the paper lies between the two for an adult.
     assert!((values.usual_step_m - 0.433).abs() < 2e-3, "{}", values.usual_step_m);
     assert!((short..long).contains(&values.usual_step_m));
+}
+
+#[test]
+fn an_early_glide_is_fastest_after_a_third_of_its_time_and_knows_its_velocity_and_acceleration() {
+    let mut share = Glide::rest(0.0);
+    share.go_early(0.0, 1.0, 0.5, 2.0);
+    let (h, mut fastest) = (1e-4, (0.0, 0.0));
+    for index in 0..=500 {
+        let secs = f64::from(index) * 0.005;
+        let [before, at, after] = [secs - h, secs, secs + h].map(|secs| share.at(secs));
+        // Central differences: their error is the third and fourth derivative, at most some hundreds, times h².
+        assert!(((after - before) / (2.0 * h) - share.velocity(secs)).abs() < 1e-5, "{secs}");
+        assert!(((after - 2.0 * at + before) / (h * h) - share.acceleration(secs)).abs() < 0.02, "{secs}");
+        if share.velocity(secs) > fastest.0 {
+            fastest = (share.velocity(secs), secs);
+        }
+    }
+    // By its formula: with v the share of the time that is left, v^1.5 = 3.5 / 6.5 at the peak, which is 45 v^3.5 (3 / 6.5)².
+    let left = (3.5_f64 / 6.5).powf(1.0 / 1.5);
+    assert!((fastest.1 - (0.5 + 2.0 * (1.0 - left))).abs() < 0.005, "{fastest:?}");
+    assert!((fastest.0 - 45.0 * left.powf(3.5) * (3.0_f64 / 6.5).powi(2) / 2.0).abs() < 1e-3, "{fastest:?}");
+    // Sent elsewhere on its way it goes on as it was.
+    let (value, velocity, acceleration) = (share.at(1.2), share.velocity(1.2), share.acceleration(1.2));
+    share.go(1.2, 0.0, 0.0, 1.0);
+    assert!((share.at(1.2) - value).abs() < 1e-15);
+    assert!((share.velocity(1.2) - velocity).abs() < 1e-12 && (share.acceleration(1.2) - acceleration).abs() < 1e-12);
 }

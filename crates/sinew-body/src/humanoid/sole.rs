@@ -38,6 +38,16 @@ impl Sole {
         }
     }
 
+    /// Where the ball of the foot is, along Z \[m\]: from there forward bears a foot whose heel is up. 0.62 of the sole from the heel.
+    pub fn ball_m(&self) -> f64 {
+        self.heel_m + 0.62 * (self.toes_m - self.heel_m)
+    }
+
+    /// The middle of its front edge, in the foot's frame \[m\]: what stays where it is while the heel rises.
+    pub fn toe(&self) -> DVec3 {
+        DVec3::new(self.middle_m, -self.ankle_m, self.toes_m)
+    }
+
     /// Its corners in the foot's frame \[m\], in the order of going around it.
     pub fn corners(&self) -> [DVec3; 4] {
         let (left, right) = (self.middle_m + self.breadth_m / 2.0, self.middle_m - self.breadth_m / 2.0);

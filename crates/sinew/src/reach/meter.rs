@@ -70,7 +70,7 @@ impl ReachMeter {
             }
         }
         if planted == [true; 2] {
-            let here = margin_over(&soles, now.body.centre_of_mass(now.pose));
+            let here = margin_over(&soles, now.body, now.body.centre_of_mass(now.pose));
             self.com_margin_m = Some(self.com_margin_m.map_or(here, |least| least.min(here)));
         }
     }
@@ -117,10 +117,24 @@ fn is_planted(now: &Instant<'_>, side: usize) -> bool {
     [-STILL_SECS, STILL_SECS].into_iter().all(|ago| (toes(now.secs + ago) - here).length() < STILL_M)
 }
 
-/// How far a point lies inside what the lower corners of both soles carry \[m\].
-fn margin_over(soles: &[[DVec3; 4]; 2], point: DVec3) -> f64 {
+/// How far a point lies inside what both soles carry \[m\]: one whose heel is up from its ball to its front edge, as they lie flat,
+/// for toes bend.
+fn margin_over(soles: &[[DVec3; 4]; 2], body: &Body, point: DVec3) -> f64 {
     let floor = soles.iter().flatten().map(|corner| corner.y).fold(f64::INFINITY, f64::min) + RISEN_M;
-    let mut corners: Vec<DVec3> = soles.iter().flatten().copied().filter(|corner| corner.y <= floor).collect();
+    let mut corners = Vec::with_capacity(8);
+    for (corners_of, foot) in soles.iter().zip(FEET) {
+        let [left_heel, left_toe, right_toe, right_heel] = *corners_of;
+        let sole = Sole::of(body, foot);
+        let back = (left_heel - left_toe).with_y(0.0).normalize_or_zero() * (sole.toes_m - sole.ball_m());
+        for (heel, toe) in [(left_heel, left_toe), (right_heel, right_toe)] {
+            if toe.y <= floor {
+                corners.push(toe);
+                corners.push(if heel.y <= floor { heel } else { toe + back });
+            } else if heel.y <= floor {
+                corners.push(heel);
+            }
+        }
+    }
     keep_hull(&mut corners, &mut Vec::new());
     margin(&corners, point)
 }
