@@ -7,6 +7,7 @@ use sinew_body::humanoid::{Body, Pose};
 
 /// How a body comes to a wanted pose.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "one for a character; a box would be made amid a run")]
 pub(super) enum Way {
     Slide(Slide),
     Rise(Rise),
