@@ -182,8 +182,14 @@ fn every_fault_names_its_line_and_a_remedy() {
         (
             "graph = \"walk\", state = \"a\"",
             "state = \"a\"",
-            "line 13: characters.left.source: 0 of pose, graph",
-            "exactly one",
+            "line 13: characters.left.source: it states no source",
+            "write one of pose, graph",
+        ),
+        (
+            "graph = \"walk\", state = \"a\"",
+            "pose = \"guard\", graph = \"walk\"",
+            "line 13: characters.left.source: 2 of pose, graph and clip",
+            "keep one",
         ),
         ("text = \"\"\"", "class = \"1x\"\ntext = \"\"\"", "line 32: controllers.Boxer.class", "class ="),
         // Names.
