@@ -219,7 +219,10 @@ fn format_of(path: &Path) -> Result<Format, Error> {
 }
 
 /// The bytes of a file that is not larger than allowed.
-fn bytes_of(path: &Path, limits: &Limits) -> Result<Vec<u8>, Error> {
+///
+/// # Errors
+/// What is no file, cannot be read, or is too large.
+pub fn bytes_of(path: &Path, limits: &Limits) -> Result<Vec<u8>, Error> {
     let io = |error: std::io::Error| Error::io(path, &error);
     let file = fs::File::open(path).map_err(io)?;
     if !file.metadata().map_err(io)?.is_file() {

@@ -15,4 +15,4 @@ mod text;
 
 pub use body_shape::BodyShape;
 pub use document::{Document, Format, Parsed, Source, WriteJob};
-pub use file::{MotionFile, ReadOptions, write, write_whole};
+pub use file::{MotionFile, ReadOptions, bytes_of, write, write_whole};

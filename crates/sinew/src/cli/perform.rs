@@ -4,7 +4,8 @@ use super::live::resolve;
 use super::{Reading, output};
 use anyhow::{Context, Result, bail};
 use sinew::live::{ClipPlayer, Impairment, RawPlayer};
-use sinew::motion::formats::MotionFile;
+use sinew::motion::Limits;
+use sinew::motion::formats::{MotionFile, bytes_of};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::io::Write;
@@ -104,14 +105,13 @@ impl Perform {
                    --loss, --duplicate, --reorder and --corrupt, or send VMC by udp://"
             );
         }
-        let player = match &self.clip {
-            Some(path) => {
-                let bytes = std::fs::read(path).with_context(|| path.display().to_string())?;
-                let player = RawPlayer::new(&String::from_utf8_lossy(&bytes)).map_err(anyhow::Error::msg);
-                player.with_context(|| path.display().to_string())?
-            }
-            None => RawPlayer::new(&String::from_utf8_lossy(sinew::sample::WALK_BVH)).map_err(anyhow::Error::msg)?,
+        let bytes = match &self.clip {
+            Some(path) => bytes_of(path, &Limits::default())?,
+            None => sinew::sample::WALK_BVH.to_vec(),
         };
+        let player = RawPlayer::new(&String::from_utf8_lossy(&bytes)).map_err(anyhow::Error::msg);
+        let player = player
+            .with_context(|| self.clip.as_ref().map_or("the walk".to_owned(), |path| path.display().to_string()))?;
         let stream = TcpStream::connect(to);
         let mut stream =
             stream.with_context(|| format!("nobody listens at {to}; run a scene with raw_port = {}", to.port()))?;
