@@ -38,7 +38,7 @@ fn standing(body: &Body) -> Frame {
         centre_velocity: DVec3::ZERO,
         facing: DVec3::Z,
         support: Vec::new(),
-        spent: CharacterFrame::EMPTY.spent,
+        external: CharacterFrame::EMPTY.external,
         was_reset: false,
     };
     Frame { characters: vec![character], ..Frame::default() }

@@ -3,7 +3,7 @@
 //! It delays and loses whole UDP packets in both directions. It keeps no order among packets whose delays differ, and knows
 //! nothing of bandwidth.
 
-use sinew_live::session::{Relay, Weather};
+use sinew_live::session::{LinkConditions, Relay};
 use std::time::Duration;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -13,14 +13,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let [listen, to, delay, more @ ..] = &words[..] else { return Err(usage.into()) };
     let number = |place: usize| more.get(place).map_or(Ok(0.0), |text| text.parse::<f64>());
     let millis = |secs: f64| Duration::try_from_secs_f64(secs / 1e3);
-    let weather = Weather {
+    let conditions = LinkConditions {
         delay: millis(delay.parse()?)?,
         jitter: millis(number(0)?)?,
         loss: number(1)?.clamp(0.0, 1.0),
         seed: 1,
     };
-    let relay = Relay::start(listen.parse()?, to.parse()?, weather)?;
-    println!("{} leads to {to}: {weather:?}", relay.address());
+    let relay = Relay::start(listen.parse()?, to.parse()?, conditions)?;
+    println!("{} leads to {to}: {conditions:?}", relay.address());
     loop {
         std::thread::sleep(Duration::from_secs(3600));
     }

@@ -8,7 +8,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::time::{Duration, Instant};
 
 /// Samples of one performer that a step takes: a sender of more than 1900 Hz at 240 steps a second loses some.
-const MOST_A_STEP: usize = 8;
+const MAX_A_STEP: usize = 8;
 
 /// Ports of a scene's performers.
 ///
@@ -41,7 +41,7 @@ impl Performers {
                 (None, Some(port)) => Port::raw(SocketAddr::new(address, port))?,
                 (None, None) => continue,
             };
-            let waiting = Vec::with_capacity(MOST_A_STEP);
+            let waiting = Vec::with_capacity(MAX_A_STEP);
             heard.insert(name.clone(), Performer { port, latency: Latency::default(), waiting });
         }
         Ok(Performers { heard })
@@ -60,7 +60,7 @@ impl Performers {
     /// Gives the stage the samples that have arrived, as commands for its next step.
     pub fn feed(&mut self, stage: &mut Stage) {
         for (name, performer) in &mut self.heard {
-            for _ in 0..MOST_A_STEP {
+            for _ in 0..MAX_A_STEP {
                 let Some((arrival, sample)) = performer.port.next() else { break };
                 stage.command(Command::to(name.as_str(), Action::Perform { sample: Box::new(sample) }));
                 performer.waiting.push(arrival);

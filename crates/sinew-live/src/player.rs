@@ -16,7 +16,7 @@ pub struct ClipPlayer {
 }
 
 /// Most frames that are kept: an hour at 60 Hz.
-const MOST_FRAMES: usize = 216_000;
+const MAX_FRAMES: usize = 216_000;
 
 impl ClipPlayer {
     /// Reads the performer out of a motion file, at a rate \[Hz\]. A pose at the beginning in which nobody moves yet is left out.
@@ -33,7 +33,7 @@ impl ClipPlayer {
         let skipped_secs = moves_from(&file.clip, humanoid) as f64 * file.clip.frame_time_secs();
         let clip = resample(&file.clip, hz);
         let first = ((skipped_secs * hz).ceil() as usize).min(clip.frames().saturating_sub(1));
-        let frames = (first..clip.frames()).take(MOST_FRAMES);
+        let frames = (first..clip.frames()).take(MAX_FRAMES);
         let poses: Vec<Pose> = frames.map(|frame| reduction.pose(&clip.world(frame))).collect();
         ClipPlayer::of_poses(reduction.body().clone(), poses, hz)
     }

@@ -1,7 +1,7 @@
 //! Ports that performers are heard on, each with a thread of its own.
 
 use crate::raw::RawReader;
-use crate::vmc::{MOST_DATAGRAM_BYTES, VmcReader};
+use crate::vmc::{MAX_DATAGRAM_BYTES, VmcReader};
 use sinew_control::perform::PerformerSample;
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read};
@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Samples that wait for the stage; older ones give way.
-const MOST_WAITING: usize = 64;
+const MAX_WAITING: usize = 64;
 
 /// How long a port belongs to a sender that has fallen silent.
 const OWNED: Duration = Duration::from_secs(2);
@@ -70,7 +70,7 @@ impl Shared {
 
     fn push(&self, arrival: Instant, sample: PerformerSample) {
         let mut heard = self.heard();
-        if heard.samples.len() >= MOST_WAITING {
+        if heard.samples.len() >= MAX_WAITING {
             heard.samples.pop_front();
             heard.counters.overflown += 1;
         }
@@ -141,7 +141,7 @@ fn hear_vmc(socket: &UdpSocket, shared: &Shared) {
     let mut reader = VmcReader::new();
     let mut owner: Option<(SocketAddr, Instant)> = None;
     // One more than allowed, so that a larger datagram is seen to be one.
-    let mut bytes = vec![0; MOST_DATAGRAM_BYTES + 1];
+    let mut bytes = vec![0; MAX_DATAGRAM_BYTES + 1];
     while !shared.ends() {
         let (length, from) = match socket.recv_from(&mut bytes) {
             Ok(got) => got,

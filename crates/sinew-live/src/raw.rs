@@ -10,10 +10,10 @@ use sinew_motion::formats::{MotionFile, ReadOptions, bvh};
 use sinew_motion::{Limits, SourceSpace};
 
 /// Largest header \[bytes\].
-const MOST_HEADER_BYTES: usize = 256 << 10;
+const MAX_HEADER_BYTES: usize = 256 << 10;
 
 /// Longest line \[bytes\]: a thousand channels.
-const MOST_LINE_BYTES: usize = 32 << 10;
+const MAX_LINE_BYTES: usize = 32 << 10;
 
 /// Frames that are watched before the performer is shown.
 const WATCHED: usize = 60;
@@ -96,7 +96,7 @@ impl RawReader {
         if self.skips {
             return;
         }
-        if self.line.len() + piece.len() > MOST_LINE_BYTES {
+        if self.line.len() + piece.len() > MAX_LINE_BYTES {
             self.line.clear();
             self.skips = true;
             out(Err(RawError::Endless("a line")));
@@ -119,7 +119,7 @@ impl RawReader {
             State::Header => {
                 self.header.push_str(line);
                 self.header.push('\n');
-                if self.header.len() > MOST_HEADER_BYTES {
+                if self.header.len() > MAX_HEADER_BYTES {
                     self.fail(RawError::Endless("a header"), out);
                 }
             }

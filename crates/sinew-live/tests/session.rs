@@ -5,75 +5,75 @@
 mod session_house;
 
 use glam::{DQuat, DVec3};
-use session_house::{House, agree, join, replayed, until, watch_until};
+use session_house::{ServerState, agree, join, replayed, until, watch_until};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 use sinew_control::perform::PerformerSample;
 use sinew_control::{Action, Command};
-use sinew_live::session::{Client, Refusal, Relay, Role, SessionError, Standing, Token, Weather};
+use sinew_live::session::{Client, LinkConditions, Refusal, Relay, Role, SessionError, Standing, Token};
 use std::time::Duration;
 
 #[test]
 fn late_joiners_have_everybodys_hashes_at_the_same_steps() {
-    let house = House::open();
-    let red = join(&house.token(Role::Actor), &["red"]).unwrap();
+    let state = ServerState::open();
+    let red = join(&state.token(Role::Actor), &["red"]).unwrap();
     watch_until(&red, 100);
-    let blue = join(&house.token(Role::Actor), &["blue"]).unwrap();
+    let blue = join(&state.token(Role::Actor), &["blue"]).unwrap();
     assert!(blue.welcome().step >= 90 && blue.welcome().seed == 1);
     assert_eq!(blue.scene().characters.len(), 3);
     assert!(red.press("p"));
     watch_until(&red, 300);
     watch_until(&blue, 300);
-    let (red, blue) = (red.tally(), blue.tally());
-    let done = house.close();
-    for tally in [&red, &blue] {
-        assert_eq!((tally.frames_that_differ, tally.frames_malformed), (0, 0));
-        agree(&tally.hashes, &done.hashes);
+    let (red, blue) = (red.stats(), blue.stats());
+    let done = state.close();
+    for stats in [&red, &blue] {
+        assert_eq!((stats.frames_that_differ, stats.frames_malformed), (0, 0));
+        agree(&stats.hashes, &done.hashes);
     }
     agree(&red.hashes, &blue.hashes);
-    assert_eq!(done.obeyed.len(), 1);
+    assert_eq!(done.applied.len(), 1);
 }
 
 #[test]
 fn a_command_is_obeyed_in_the_step_after_it_arrives_and_the_take_replays_it() {
-    let house = House::open();
-    let red = join(&house.token(Role::Actor), &["red"]).unwrap();
+    let state = ServerState::open();
+    let red = join(&state.token(Role::Actor), &["red"]).unwrap();
     watch_until(&red, 60);
     red.press("p");
     red.command(Command::to("red", Action::Gain { factor: 0.5, part: None }));
     watch_until(&red, 240);
-    let done = house.close();
+    let done = state.close();
     assert_eq!(done.take.commands.len(), 2);
-    for obeyed in &done.obeyed {
+    for applied in &done.applied {
         // Taken before the step that begins next: between the two looks of a thread at the count one step may have begun.
-        assert!(obeyed.step - obeyed.arrived_step <= 1, "{obeyed:?}");
+        assert!(applied.step - applied.arrived_step <= 1, "{applied:?}");
     }
     assert_eq!(replayed(&done.take).hash(), done.take.hash);
 }
 
 #[test]
 fn an_actor_commands_itself_and_nobody_else_and_the_operator_all() {
-    let house = House::open();
-    let red = join(&house.token(Role::Actor), &["red"]).unwrap();
+    let state = ServerState::open();
+    let red = join(&state.token(Role::Actor), &["red"]).unwrap();
     red.command(Command::to("blue", Action::Gain { factor: 0.0, part: None }));
     red.press("b");
     red.press("no such key");
-    until("the refusals", || red.tally().not_passed.len() == 3);
-    let operator = join(&house.token(Role::Operator), &[]).unwrap();
+    until("the refusals", || red.stats().not_passed.len() == 3);
+    let operator = join(&state.token(Role::Operator), &[]).unwrap();
     operator.press("b");
     operator.command(Command::to("blue", Action::Gain { factor: 0.9, part: None }));
     operator.command(Command::stage(Action::Reload { name: "x".into(), text: Some("import os".into()) }));
-    until("the operator's refusal", || operator.tally().not_passed.len() == 1);
-    until("the orders", || house.counts().orders == 2);
-    assert_eq!(house.counts().orders_refused, 4);
-    let done = house.close();
-    let by: Vec<&str> = done.obeyed.iter().map(|obeyed| obeyed.by.as_str()).collect();
+    until("the operator's refusal", || operator.stats().not_passed.len() == 1);
+    until("the orders", || state.counts().orders == 2);
+    assert_eq!(state.counts().orders_refused, 4);
+    let done = state.close();
+    let by: Vec<&str> = done.applied.iter().map(|applied| applied.by.as_str()).collect();
     assert_eq!(by, ["operator", "operator"]);
 }
 
 #[test]
 fn without_the_tokens_secret_or_the_servers_certificate_nobody_joins() {
-    let house = House::open();
-    let token = house.token(Role::Actor);
+    let state = ServerState::open();
+    let token = state.token(Role::Actor);
     let guessed = Token { secret: [0; 32], ..token.clone() };
     assert_eq!(join(&guessed, &[]).err(), Some(SessionError::Refused(Refusal::Secret)));
     let elsewhere = Token { fingerprint: [0; 32], ..token.clone() };
@@ -88,43 +88,45 @@ fn without_the_tokens_secret_or_the_servers_certificate_nobody_joins() {
 
 #[test]
 fn over_a_bad_network_hashes_agree_and_a_lost_client_comes_back_as_itself() {
-    let house = House::open();
-    let weather = Weather { delay: Duration::from_millis(40), jitter: Duration::from_millis(15), loss: 0.05, seed: 3 };
-    let relay =
-        |seed| Relay::start("127.0.0.1:0".parse().unwrap(), house.server.address(), Weather { seed, ..weather });
+    let state = ServerState::open();
+    let conditions =
+        LinkConditions { delay: Duration::from_millis(40), jitter: Duration::from_millis(15), loss: 0.05, seed: 3 };
+    let relay = |seed| {
+        Relay::start("127.0.0.1:0".parse().unwrap(), state.server.address(), LinkConditions { seed, ..conditions })
+    };
     let (red_way, blue_way) = (relay(3).unwrap(), relay(4).unwrap());
-    let via = |relay: &Relay| Token { port: relay.address().port(), ..house.token(Role::Actor) };
+    let via = |relay: &Relay| Token { port: relay.address().port(), ..state.token(Role::Actor) };
     let red = join(&via(&red_way), &["red"]).unwrap();
     let blue = join(&via(&blue_way), &["blue"]).unwrap();
     watch_until(&red, 120);
     // Blue is cut off for longer than a connection lives: like a host that is switched off, and back.
     blue_way.cut(true);
     until("the loss", || blue.standing() == Standing::Rejoining);
-    let lost = blue.tally().last_step.unwrap();
+    let lost = blue.stats().last_step.unwrap();
     assert!(red.standing() == Standing::Connected, "red goes on");
     blue_way.cut(false);
-    until("blue's return", || blue.standing() == Standing::Connected && blue.tally().last_step.unwrap() > lost);
+    until("blue's return", || blue.standing() == Standing::Connected && blue.stats().last_step.unwrap() > lost);
     red.press("p");
-    let now = red.tally().last_step.unwrap();
+    let now = red.stats().last_step.unwrap();
     watch_until(&red, now + 240);
     watch_until(&blue, now + 240);
-    let (red, blue) = (red.tally(), blue.tally());
-    let done = house.close();
+    let (red, blue) = (red.stats(), blue.stats());
+    let done = state.close();
     assert_eq!(blue.rejoined, 1);
-    for tally in [&red, &blue] {
-        assert_eq!((tally.frames_that_differ, tally.frames_malformed), (0, 0));
+    for stats in [&red, &blue] {
+        assert_eq!((stats.frames_that_differ, stats.frames_malformed), (0, 0));
         // Two ways of 40 ms, and no less.
-        assert!(tally.round_trip_ms >= 80.0, "{}", tally.round_trip_ms);
-        agree(&tally.hashes, &done.hashes);
+        assert!(stats.round_trip_ms >= 80.0, "{}", stats.round_trip_ms);
+        agree(&stats.hashes, &done.hashes);
     }
-    assert_eq!(done.obeyed.len(), 1);
+    assert_eq!(done.applied.len(), 1);
 }
 
 #[test]
 fn what_an_actor_performs_moves_its_character_and_the_take_replays_it() {
-    let house = House::open();
-    let green = join(&house.token(Role::Actor), &["green"]).unwrap();
-    let red = join(&house.token(Role::Actor), &["red"]).unwrap();
+    let state = ServerState::open();
+    let green = join(&state.token(Role::Actor), &["green"]).unwrap();
+    let red = join(&state.token(Role::Actor), &["red"]).unwrap();
     let body = Body::standard(80.0, 1.7);
     let sample = |secs: f64| {
         let mut locals = [DQuat::IDENTITY; Node::COUNT];
@@ -142,15 +144,15 @@ fn what_an_actor_performs_moves_its_character_and_the_take_replays_it() {
         green.perform(1, sample(0.0));
         std::thread::sleep(Duration::from_micros(16_667));
     }
-    let now = green.tally().last_step.unwrap();
+    let now = green.stats().last_step.unwrap();
     watch_until(&red, now);
     assert!(arm(&red, 1).x > 0.8, "green's arm is up, as red sees it: {}", arm(&red, 1));
     // Green is gone; the others go on, and its character holds what it did.
     drop(green);
     watch_until(&red, now + 120);
     assert!(arm(&red, 1).x > 0.8);
-    assert_eq!(red.tally().frames_that_differ, 0);
-    let done = house.close();
+    assert_eq!(red.stats().frames_that_differ, 0);
+    let done = state.close();
     let performed = |name: &str| {
         let is_it = |command: &Command| {
             command.character.as_deref() == Some(name) && matches!(command.action, Action::Perform { .. })

@@ -8,18 +8,18 @@ use quinn::crypto::rustls::QuicClientConfig;
 use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, ServerCertVerifier};
 use rustls::pki_types::{CertificateDer, ServerName, UnixTime};
 use rustls::{DigitallySignedStruct, SignatureScheme};
-use session_house::{House, agree, join, until, watch_until};
+use session_house::{ServerState, agree, join, until, watch_until};
 use sinew_live::session::{Client, PROTOCOL, Role, Standing, Token};
 use std::net::UdpSocket;
 use std::sync::Arc;
 
 /// An honest client that goes on all the while.
 fn goes_on(red: &Client) {
-    let now = red.tally().last_step.unwrap();
+    let now = red.stats().last_step.unwrap();
     watch_until(red, now + 60);
     assert_eq!(red.standing(), Standing::Connected);
-    let tally = red.tally();
-    assert_eq!((tally.frames_that_differ, tally.frames_malformed, tally.rejoined), (0, 0, 0));
+    let stats = red.stats();
+    assert_eq!((stats.frames_that_differ, stats.frames_malformed, stats.rejoined), (0, 0, 0));
 }
 
 /// A connection of somebody who follows no rule of ours.
@@ -82,8 +82,8 @@ fn greeting(token: &Token, actors: &[&str]) -> Vec<u8> {
 
 #[test]
 fn garbage_and_floods_before_the_greeting_harm_nobody() {
-    let house = House::open();
-    let token = house.token(Role::Actor);
+    let state = ServerState::open();
+    let token = state.token(Role::Actor);
     let red = join(&token, &["red"]).unwrap();
     watch_until(&red, 8);
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
@@ -93,7 +93,7 @@ fn garbage_and_floods_before_the_greeting_harm_nobody() {
         let bytes: Vec<u8> = (0..1 + packet as usize * 7 % 1300)
             .map(|at| if at == 0 { first } else { (packet.wrapping_mul(2_654_435_761) >> (at % 24)) as u8 })
             .collect();
-        socket.send_to(&bytes, house.server.address()).unwrap();
+        socket.send_to(&bytes, state.server.address()).unwrap();
     }
     let rude = Rude::new();
     rude.say(&token, false, &u32::MAX.to_le_bytes());
@@ -106,14 +106,14 @@ fn garbage_and_floods_before_the_greeting_harm_nobody() {
     assert!(join(&token, &["blue"]).is_ok(), "there is room for one who greets");
     until("the end of the silent", || silent.iter().all(|connection| connection.close_reason().is_some()));
     goes_on(&red);
-    assert!(house.counts().strangers_refused >= 15, "{:?}", house.counts());
-    agree(&red.tally().hashes, &house.close().hashes);
+    assert!(state.counts().strangers_refused >= 15, "{:?}", state.counts());
+    agree(&red.stats().hashes, &state.close().hashes);
 }
 
 #[test]
 fn who_breaks_the_rules_after_joining_is_cut_off_alone() {
-    let house = House::open();
-    let token = house.token(Role::Actor);
+    let state = ServerState::open();
+    let token = state.token(Role::Actor);
     let red = join(&token, &["red"]).unwrap();
     watch_until(&red, 8);
     let rude = Rude::new();
@@ -134,14 +134,14 @@ fn who_breaks_the_rules_after_joining_is_cut_off_alone() {
     assert!(is_cut_off(closed), "datagrams of noise");
     goes_on(&red);
     assert!(join(&token, &["blue"]).is_ok(), "its actor is free again");
-    assert_eq!(house.counts().orders, 0);
-    agree(&red.tally().hashes, &house.close().hashes);
+    assert_eq!(state.counts().orders, 0);
+    agree(&red.stats().hashes, &state.close().hashes);
 }
 
 #[test]
 fn who_takes_nothing_or_sends_too_much_slows_only_itself() {
-    let house = House::open();
-    let token = house.token(Role::Actor);
+    let state = ServerState::open();
+    let token = state.token(Role::Actor);
     let red = join(&token, &["red"]).unwrap();
     watch_until(&red, 8);
     let rude = Rude::new();
@@ -166,19 +166,19 @@ fn who_takes_nothing_or_sends_too_much_slows_only_itself() {
         }
     });
     goes_on(&red);
-    let before = red.tally().sent.len();
+    let before = red.stats().sent.len();
     red.press("p");
-    until("red's press", || house.counts().orders >= 1);
-    assert_eq!(red.tally().sent.len(), before + 1);
-    until("frames that nobody takes", || house.counts().frames_dropped > 0);
+    until("red's press", || state.counts().orders >= 1);
+    assert_eq!(red.stats().sent.len(), before + 1);
+    until("frames that nobody takes", || state.counts().frames_dropped > 0);
     goes_on(&red);
     flooding.abort();
-    let steps = red.tally().last_step.unwrap();
-    let done = house.close();
-    assert!(done.obeyed.iter().any(|obeyed| obeyed.by == "red"));
-    // Its presses are not bound to its own actor, so none is obeyed; and none is looked at faster than sixty a second.
-    assert!(done.obeyed.iter().all(|obeyed| obeyed.by != "blue"), "after {steps} steps");
-    agree(&red.tally().hashes, &done.hashes);
+    let steps = red.stats().last_step.unwrap();
+    let done = state.close();
+    assert!(done.applied.iter().any(|applied| applied.by == "red"));
+    // Its presses are not bound to its own actor, so none is applied; and none is looked at faster than sixty a second.
+    assert!(done.applied.iter().all(|applied| applied.by != "blue"), "after {steps} steps");
+    agree(&red.stats().hashes, &done.hashes);
 }
 
 /// Believes anybody.

@@ -14,7 +14,7 @@ use glam::{DQuat, DVec3};
 /// Shortest and longest stride that is looked for \[s\]: a sprinter's is 0.45 s, a sneak's 2.5 s.
 const PERIOD_SECS: std::ops::RangeInclusive<f64> = 0.4..=3.2;
 /// A stride moves the body at least this share of its stature: less is stepping on the spot.
-const LEAST_STRIDE: f64 = 0.25;
+const MIN_STRIDE: f64 = 0.25;
 /// The other foot's moment comes at this share of the stride.
 const OTHER_FOOT: std::ops::RangeInclusive<f64> = 0.25..=0.75;
 /// Ends further apart than this are no cycle \[deg\].
@@ -22,7 +22,7 @@ const LARGEST_GAP_DEG: f64 = 20.0;
 /// A loop's ends agree this well \[deg\].
 const LOOP_GAP_DEG: f64 = 3.0;
 /// Below this the legs do not repeat themselves.
-const LEAST_PERIODICITY: f64 = 0.5;
+const MIN_PERIODICITY: f64 = 0.5;
 
 /// One stride: two steps, from one moment of a foot to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,7 +123,7 @@ impl Legs {
             centred[a].iter().zip(&centred[b]).map(|(a, b)| a * b).sum::<f64>() / self.ahead[a].len() as f64
         };
         let (left, right) = (product(0, 0).sqrt(), product(1, 1).sqrt());
-        let step = LEAST_STRIDE * self.stature_m;
+        let step = MIN_STRIDE * self.stature_m;
         let walks = left.min(right) > 0.15 * step && product(0, 1) < -0.3 * left * right;
         if !PERIOD_SECS.contains(&period_secs) || pose_gap_deg > LOOP_GAP_DEG || !walks {
             return None;
@@ -149,12 +149,12 @@ impl Legs {
             matches!((between.next(), between.next()), (Some(&at), None) if OTHER_FOOT.contains(&share(at)));
         let moved = self.hips[last] - self.hips[first];
         let stride_m = DVec3::new(moved.x, 0.0, moved.z).length();
-        if !PERIOD_SECS.contains(&period_secs) || !alternates || stride_m < LEAST_STRIDE * self.stature_m {
+        if !PERIOD_SECS.contains(&period_secs) || !alternates || stride_m < MIN_STRIDE * self.stature_m {
             return None;
         }
         let pose_gap_deg = pose_gap(clip, humanoid, first, last).to_degrees();
         let periodicity = self.periodicity(first, last);
-        let close = pose_gap_deg <= LARGEST_GAP_DEG && periodicity >= LEAST_PERIODICITY;
+        let close = pose_gap_deg <= LARGEST_GAP_DEG && periodicity >= MIN_PERIODICITY;
         close.then_some(Cycle { first, last, period_secs, foot, pose_gap_deg, periodicity, stride_m })
     }
 

@@ -7,7 +7,7 @@
 mod common;
 
 use common::{any_target, bodies, goal, jump, measure, reacher};
-use sinew_reach::{Dice, Style};
+use sinew_reach::{Rng, Style};
 use std::collections::BTreeMap;
 
 fn main() {
@@ -20,7 +20,7 @@ fn main() {
         let (mut error, mut gap, mut excess, mut slip, mut heel, mut margin): (f64, f64, f64, f64, f64, f64) =
             (0.0, 0.0, 0.0, 0.0, 0.0, f64::INFINITY);
         for seed in 0..count {
-            let target = any_target(&mut Dice::new(seed), body.stature_m());
+            let target = any_target(&mut Rng::new(seed), body.stature_m());
             let style = Style { seed, ..Style::default() };
             let one = measure(&body, &style, target, 60.0);
             let reason = one.outcome.reason.map_or("reached".to_owned(), |reason| format!("{reason:?}"));

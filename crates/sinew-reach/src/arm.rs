@@ -1,24 +1,24 @@
 //! An arm over time.
 
 use crate::compose::{ARMS, ArmNow};
-use crate::glide::Glide;
 use crate::hand_path::HandPath;
+use crate::minimum_jerk::MinimumJerk;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Pose, exp, log};
 
 /// An arm over time.
 #[derive(Clone, Debug)]
 pub(crate) struct Arm {
-    pub share: Glide<f64>,
+    pub share: MinimumJerk<f64>,
     /// Where the target is now, and what is left of where it was.
     pub target: DVec3,
-    pub bow: Glide<DVec3>,
-    pub swivel: Glide<f64>,
-    pub girdle: Glide<DVec3>,
+    pub bow: MinimumJerk<DVec3>,
+    pub swivel: MinimumJerk<f64>,
+    pub girdle: MinimumJerk<DVec3>,
     /// Shoulder, upper arm, lower arm and hand where the arm is carried.
     pub carried: [Carried; 4],
     /// How far the way is led by the joints \[1\], and upper and lower arm at its end.
-    pub by_joints: Glide<f64>,
+    pub by_joints: MinimumJerk<f64>,
     pub end: [DQuat; 2],
     /// The hand's way under `print`, with its start \[s\].
     pub printed: Option<(HandPath, f64)>,
@@ -28,7 +28,7 @@ pub(crate) struct Arm {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Carried {
     base: DQuat,
-    passes: Glide<DVec3>,
+    passes: MinimumJerk<DVec3>,
     /// Where it hangs when it has let go.
     home: DQuat,
 }
@@ -42,7 +42,7 @@ const FASTEST_RAD_S: f64 = 20.0;
 
 impl Carried {
     fn rest(turn: DQuat) -> Carried {
-        Carried { base: DQuat::IDENTITY, passes: Glide::rest(log(turn)), home: turn }
+        Carried { base: DQuat::IDENTITY, passes: MinimumJerk::rest(log(turn)), home: turn }
     }
 
     /// The joint of a body that moves: most of what it has passes.
@@ -50,7 +50,7 @@ impl Carried {
         let turn = log(now);
         Carried {
             base: DQuat::IDENTITY,
-            passes: Glide::moving(0.0, turn, velocity, turn * share, lasts),
+            passes: MinimumJerk::moving(0.0, turn, velocity, turn * share, lasts),
             home: exp(turn * share),
         }
     }
@@ -71,7 +71,8 @@ impl Carried {
         let velocity = ((on - back) / (2.0 * moment)).clamp_length_max(FASTEST_RAD_S);
         let acceleration = (on + back) / (moment * moment);
         self.base = at;
-        self.passes = Glide::between(now, RESTS_SECS, DVec3::ZERO, velocity, acceleration, velocity * GOES_ON_SECS);
+        self.passes =
+            MinimumJerk::between(now, RESTS_SECS, DVec3::ZERO, velocity, acceleration, velocity * GOES_ON_SECS);
     }
 
     fn go_home(&mut self, now: f64, lasts: f64) {
@@ -82,15 +83,15 @@ impl Carried {
 impl Arm {
     /// An arm that is carried as in a pose.
     pub fn carried(side: usize, pose: &Pose) -> Arm {
-        let rest = Glide::rest(DVec3::ZERO);
+        let rest = MinimumJerk::rest(DVec3::ZERO);
         Arm {
-            share: Glide::rest(0.0),
+            share: MinimumJerk::rest(0.0),
             target: DVec3::ZERO,
             bow: rest,
-            swivel: Glide::rest(0.0),
+            swivel: MinimumJerk::rest(0.0),
             girdle: rest,
             carried: ARMS[side].map(|node| Carried::rest(pose.local(node))),
-            by_joints: Glide::rest(0.0),
+            by_joints: MinimumJerk::rest(0.0),
             end: [DQuat::IDENTITY; 2],
             printed: None,
         }
@@ -121,8 +122,8 @@ impl Arm {
         for joint in 0..3 {
             self.carried[1 + joint].take_over(now, turns.map(|all| all[joint]), moment);
         }
-        self.share = Glide::rest(0.0);
-        self.by_joints = Glide::rest(0.0);
+        self.share = MinimumJerk::rest(0.0);
+        self.by_joints = MinimumJerk::rest(0.0);
         self.printed = None;
     }
 

@@ -22,7 +22,7 @@ pub(crate) struct Carried {
 const HANGS: f64 = 0.75;
 
 /// How far they come forward at most, and less than half so far aside: the shoulder's range \[rad\].
-const MOST_HANG_RAD: f64 = 1.1;
+const MAX_HANG_RAD: f64 = 1.1;
 
 /// An instant of the whole body in which one arm is to be placed differently.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +54,7 @@ impl Frame {
     pub fn hang(&self, arm: &ArmNow, chest: DQuat, swing: DVec3) -> DQuat {
         let girdle = chest * arm.carried[0] * exp(arm.girdle);
         let hang = girdle.conjugate() * swing * -HANGS;
-        exp(DVec3::new(soft(hang.x, MOST_HANG_RAD), 0.0, soft(hang.z, 0.4 * MOST_HANG_RAD)))
+        exp(DVec3::new(soft(hang.x, MAX_HANG_RAD), 0.0, soft(hang.z, 0.4 * MAX_HANG_RAD)))
     }
 
     /// Upper and lower arm for a hand at a point, by the usual turn and a swivel.

@@ -1,6 +1,6 @@
 //! Where the feet are: planted, or on their way in a step; and what they carry.
 
-use crate::glide::{Glide, arc, eased};
+use crate::minimum_jerk::{MinimumJerk, arc, eased};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Sole};
 
@@ -45,7 +45,7 @@ pub struct Support {
 const LINGERS: f64 = 2.0;
 
 /// Most strides that are planned ahead.
-pub const MOST_STRIDES: usize = 96;
+pub const MAX_STRIDES: usize = 96;
 
 /// Both feet over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +57,7 @@ pub struct Feet {
     /// What feet carry before the strides and after each, flat and on their toes.
     stances: Vec<[Support; 2]>,
     /// What is left of where the feet were when the reach began: shift \[m\] and turn (world) of each.
-    pub(crate) rests: [(Glide<DVec3>, Glide<DVec3>); 2],
+    pub(crate) rests: [(MinimumJerk<DVec3>, MinimumJerk<DVec3>); 2],
     linear: bool,
     /// A stride that belongs to the start and is not forgotten.
     closing: Option<Stride>,
@@ -69,9 +69,9 @@ impl Feet {
         let mut feet = Feet {
             soles: [Node::LeftFoot, Node::RightFoot].map(|foot| Sole::of(body, foot)),
             planted,
-            strides: Vec::with_capacity(MOST_STRIDES),
-            stances: Vec::with_capacity(MOST_STRIDES + 1),
-            rests: [(Glide::rest(DVec3::ZERO), Glide::rest(DVec3::ZERO)); 2],
+            strides: Vec::with_capacity(MAX_STRIDES),
+            stances: Vec::with_capacity(MAX_STRIDES + 1),
+            rests: [(MinimumJerk::rest(DVec3::ZERO), MinimumJerk::rest(DVec3::ZERO)); 2],
             linear,
             closing: None,
         };
@@ -86,7 +86,7 @@ impl Feet {
 
     /// Adds a stride after the others. False when there are too many.
     pub(crate) fn push(&mut self, stride: Stride) -> bool {
-        let fits = self.strides.len() < MOST_STRIDES;
+        let fits = self.strides.len() < MAX_STRIDES;
         if fits {
             self.strides.push(stride);
             self.stances.push(self.supports_of(&self.last()));

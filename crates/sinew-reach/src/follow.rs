@@ -48,9 +48,9 @@ impl Reacher {
     fn plan_again(&mut self, now: f64) {
         let ahead = (self.done_secs() - now).clamp(0.0, AHEAD_SECS);
         let ahead: [Option<DVec3>; 2] = [0, 1].map(|side| Some(self.goal[side]? + self.velocity[side] * ahead));
-        let mut dice = self.dice;
-        let decision = self.decide(ahead, &mut dice, true);
-        self.dice = dice;
+        let mut rng = self.rng;
+        let decision = self.decide(ahead, &mut rng, true);
+        self.rng = rng;
         self.planned = ahead;
         self.replanned_secs = now;
         self.schedule_again(&decision, now);

@@ -1,7 +1,7 @@
 //! The hand's way under `print`: EQ1 to EQ4, Algorithm 1.
 //!
 //! The hand starts at full speed and slows down in the last part. Its acceleration jumps, at the start also its speed; the default
-//! therefore goes by minimum jerk instead ([`Glide`](crate::Glide)). Algorithm 1 as printed divides the vector v_s before it is
+//! therefore goes by minimum jerk instead ([`MinimumJerk`](crate::MinimumJerk)). Algorithm 1 as printed divides the vector v_s before it is
 //! set; here EQ1 comes first.
 
 use glam::DVec3;

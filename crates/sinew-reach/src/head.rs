@@ -4,9 +4,9 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::exp;
 
 /// How far the head turns against the chest, neck and head together \[rad\]: to a side, up, down.
-const MOST_SIDE_RAD: f64 = 1.15;
-const MOST_UP_RAD: f64 = 0.95;
-const MOST_DOWN_RAD: f64 = 0.85;
+const MAX_SIDE_RAD: f64 = 1.15;
+const MAX_UP_RAD: f64 = 0.95;
+const MAX_DOWN_RAD: f64 = 0.85;
 
 /// Share of the turn that the neck takes.
 const NECK_SHARE: f64 = 0.45;
@@ -26,8 +26,8 @@ pub fn look(chest_from_target: DVec3, share: f64) -> (DQuat, DQuat) {
     // Straight overhead no side is meant; straight behind both are.
     let meant = smooth(level / length, 0.1, 0.5) * (1.0 - smooth(side.abs(), 1.9, 3.0));
     let up = libm::atan2(d.y, level.max(1e-9)) * (1.0 - 0.7 * smooth(side.abs(), 1.9, 3.0));
-    let side = soft(side, MOST_SIDE_RAD) * meant;
-    let up = if up > 0.0 { soft(up, MOST_UP_RAD) } else { soft(up, MOST_DOWN_RAD) };
+    let side = soft(side, MAX_SIDE_RAD) * meant;
+    let up = if up > 0.0 { soft(up, MAX_UP_RAD) } else { soft(up, MAX_DOWN_RAD) };
     // Slerp from straight ahead: the rotation vector grows.
     let turn = sinew_body::humanoid::log(exp(DVec3::Y * side) * exp(DVec3::X * -up)) * share;
     (exp(turn * NECK_SHARE), exp(turn * (1.0 - NECK_SHARE)))
@@ -45,5 +45,5 @@ pub(crate) fn soft(value: f64, most: f64) -> f64 {
 
 /// From 0 at `from` to 1 at `to`, flat to the second derivative at both ends.
 pub(crate) fn smooth(value: f64, from: f64, to: f64) -> f64 {
-    crate::glide::eased((value - from) / (to - from))
+    crate::minimum_jerk::eased((value - from) / (to - from))
 }

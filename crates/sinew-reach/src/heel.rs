@@ -20,7 +20,7 @@ const LEANS_RAD: f64 = 0.45;
 pub(crate) const LEAN_FIRST_RAD: f64 = 0.15;
 
 /// How far a foot rises on its toes \[rad\].
-pub(crate) const MOST_RAD: f64 = 0.6;
+pub(crate) const MAX_RAD: f64 = 0.6;
 
 /// A heel at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +38,7 @@ impl Heel {
         let squats = obeys * smooth(bend_rad, ANKLE_RAD - LEANS_RAD, ANKLE_RAD + 0.5 * SOFTLY_RAD);
         let stretches = smooth(tiptoe_rad, 0.0, LEAN_FIRST_RAD);
         let pitch = obeys * RISES * ramp(bend_rad - ANKLE_RAD, SOFTLY_RAD) + Heel::tiptoe(tiptoe_rad);
-        Heel { pitch_rad: crate::head::soft(pitch, 1.25 * MOST_RAD), forward: 1.0 - (1.0 - squats) * (1.0 - stretches) }
+        Heel { pitch_rad: crate::head::soft(pitch, 1.25 * MAX_RAD), forward: 1.0 - (1.0 - squats) * (1.0 - stretches) }
     }
 
     /// What of it is meant to lift the body \[rad\].

@@ -1,6 +1,6 @@
 //! The leg controller's decisions: whether to step, how, and how far.
 
-use crate::{Dice, Values};
+use crate::{Rng, Values};
 use glam::DVec3;
 
 /// How a step is taken.
@@ -65,23 +65,23 @@ pub fn step_length(distance_m: f64, p: f64, values: &Values) -> f64 {
 }
 
 /// p of EQ9: normally distributed, kept where EQ9 has no pole.
-pub fn step_bias(dice: &mut Dice, values: &Values) -> f64 {
+pub fn step_bias(rng: &mut Rng, values: &Values) -> f64 {
     let (mean, deviation) = values.step_bias;
-    dice.normal(mean, deviation).clamp(0.02, 0.98)
+    rng.normal(mean, deviation).clamp(0.02, 0.98)
 }
 
 /// The stepping decision: whether the target's horizontal distance from the shoulder \[m\] asks for a step, and for which.
 ///
 /// ```
 /// use sinew_body::humanoid::Body;
-/// use sinew_reach::{Dice, Style, Values, decide_step};
+/// use sinew_reach::{Rng, Style, Values, decide_step};
 /// let values = Values::of(&Body::standard(80.0, 1.7), &Style::default());
-/// assert!(decide_step(0.3, &mut Dice::new(1), &values).is_none());
-/// assert!(decide_step(1.2, &mut Dice::new(1), &values).is_some());
+/// assert!(decide_step(0.3, &mut Rng::new(1), &values).is_none());
+/// assert!(decide_step(1.2, &mut Rng::new(1), &values).is_some());
 /// ```
-pub fn decide_step(distance_m: f64, dice: &mut Dice, values: &Values) -> Option<StepChoice> {
+pub fn decide_step(distance_m: f64, rng: &mut Rng, values: &Values) -> Option<StepChoice> {
     // All three are drawn in any case: the choices of one seed then stay comparable.
-    let (steps, halves, bias) = (dice.unit(), dice.unit(), step_bias(dice, values));
+    let (steps, halves, bias) = (rng.unit(), rng.unit(), step_bias(rng, values));
     if distance_m <= values.convenient_m || steps >= step_probability(distance_m, values) {
         return None;
     }

@@ -3,7 +3,7 @@
 //!
 //! A [`Reacher`] is a source of poses. It plans the whole way when it is given a [`Goal`]: whether to step and how
 //! ([`decide_step`]), how far the spine twists and swings, how far the hips sink, and where the elbow goes. From then on every
-//! pose is a closed form of the time, and every control a [`Glide`] that can be sent elsewhere at any moment.
+//! pose is a closed form of the time, and every control a [`MinimumJerk`] that can be sent elsewhere at any moment.
 //!
 //! | job | file |
 //! |---|---|
@@ -20,20 +20,20 @@
 mod arm;
 mod arm_place;
 mod compose;
-mod dice;
 mod feet;
 mod follow;
 mod frame;
-mod glide;
 mod hand_path;
 mod head;
 mod heel;
 mod leg_place;
 mod legs;
+mod minimum_jerk;
 mod obstacle;
 mod outcome;
 mod plan;
 mod reacher;
+mod rng;
 mod route;
 mod schedule;
 mod solve;
@@ -42,18 +42,18 @@ mod start;
 mod values;
 mod walk;
 
-pub use dice::Dice;
 pub use feet::{Feet, Placement, Stride, Support};
-pub use glide::{Glide, Value};
 pub use hand_path::{HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S};
 pub use head::look;
 pub use legs::{
     StepChoice, StepKind, decide_step, ground_direction, half_probability, step_bias, step_length, step_probability,
 };
+pub use minimum_jerk::{MinimumJerk, Value};
 pub use obstacle::Obstacle;
 pub use outcome::{Outcome, Reason};
 pub use reacher::{Goal, Reacher};
-pub use route::MOST_OBSTACLES;
+pub use rng::Rng;
+pub use route::MAX_OBSTACLES;
 pub use spine::{
     reaching_angle, root_shift, search_twist, squat_for, stoop_range_m, swing_axis, swing_shares, twist_shares,
 };

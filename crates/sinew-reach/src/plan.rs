@@ -1,6 +1,6 @@
 //! What to do about a goal: step or not, and where trunk and arms go then.
 
-use crate::Dice;
+use crate::Rng;
 use crate::compose::ARMS;
 use crate::feet::Placement;
 use crate::legs::{StepChoice, StepKind, decide_step, ground_direction};
@@ -99,7 +99,7 @@ struct Errand {
 
 impl Reacher {
     /// Decides anew. With `again` the target has only moved on: no step unless it is needed.
-    pub(crate) fn decide(&self, targets: [Option<DVec3>; 2], dice: &mut Dice, again: bool) -> Decision {
+    pub(crate) fn decide(&self, targets: [Option<DVec3>; 2], rng: &mut Rng, again: bool) -> Decision {
         let mut decision = Decision {
             targets,
             walk: None,
@@ -122,9 +122,9 @@ impl Reacher {
         let reaching = (0..2).filter(|side| targets[*side].is_some());
         let middle = targets.iter().flatten().sum::<DVec3>() / count as f64;
         let d = middle - reaching.clone().map(|side| shoulders[side]).sum::<DVec3>() / count as f64;
-        let choice = if again { None } else { decide_step(libm::hypot(d.x, d.z), dice, &self.frame.values) };
+        let choice = if again { None } else { decide_step(libm::hypot(d.x, d.z), rng, &self.frame.values) };
         let side = if count == 1 { reaching.clone().next() } else { None };
-        let errand = Errand { targets, side, middle, d, foot_choice: dice.unit(), near_choice: dice.unit() };
+        let errand = Errand { targets, side, middle, d, foot_choice: rng.unit(), near_choice: rng.unit() };
         let trial = self.best_trial(task, choice, &errand);
         let (aim, judged) = &trial.found;
         let end = &judged.composed;
@@ -312,15 +312,15 @@ fn priced(trial: &Option<Trial>) -> f64 {
 }
 
 /// Turning, the foot on that side goes first; else as a rule that of the reaching hand.
-fn first_foot(turn_rad: f64, side: Option<usize>, dice: f64) -> usize {
+fn first_foot(turn_rad: f64, side: Option<usize>, rng: f64) -> usize {
     if turn_rad.abs() > 0.5 {
         return usize::from(turn_rad < 0.0);
     }
-    let same = dice < 0.65;
+    let same = rng < 0.65;
     match side {
         Some(side) if same => side,
         Some(side) => 1 - side,
-        None => usize::from(dice < 0.5),
+        None => usize::from(rng < 0.5),
     }
 }
 

@@ -4,12 +4,12 @@ use crate::arm::Arm;
 use crate::compose::{ARMS, ArmNow, Composed, Now};
 use crate::feet::Feet;
 use crate::frame::Frame;
-use crate::glide::Glide;
+use crate::minimum_jerk::MinimumJerk;
 use crate::outcome::{Outcome, Reason};
 use crate::solve::Task;
 use crate::start::{Start, close_stride, placed_feet};
 use crate::walk::Step;
-use crate::{Dice, Style, Values};
+use crate::{Rng, Style, Values};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 
@@ -43,22 +43,22 @@ pub struct Goal {
 pub struct Reacher {
     pub(crate) frame: Frame,
     pub(crate) style: Style,
-    pub(crate) dice: Dice,
+    pub(crate) rng: Rng,
     pub(crate) now_secs: f64,
     pub(crate) feet: Feet,
-    pub(crate) twist: Glide<f64>,
-    pub(crate) swing: Glide<DVec3>,
-    pub(crate) squat: Glide<f64>,
-    pub(crate) lean: Glide<DVec3>,
-    pub(crate) tiptoe: Glide<f64>,
-    pub(crate) heels: Glide<f64>,
-    pub(crate) look: Glide<f64>,
+    pub(crate) twist: MinimumJerk<f64>,
+    pub(crate) swing: MinimumJerk<DVec3>,
+    pub(crate) squat: MinimumJerk<f64>,
+    pub(crate) lean: MinimumJerk<DVec3>,
+    pub(crate) tiptoe: MinimumJerk<f64>,
+    pub(crate) heels: MinimumJerk<f64>,
+    pub(crate) look: MinimumJerk<f64>,
     /// What is left of where it looked before.
-    pub(crate) gaze: Glide<DVec3>,
+    pub(crate) gaze: MinimumJerk<DVec3>,
     pub(crate) arms: [Arm; 2],
-    pub(crate) hips: [Glide<DVec3>; 2],
-    pub(crate) trunk: [Glide<DVec3>; 3],
-    pub(crate) knees: [Glide<f64>; 2],
+    pub(crate) hips: [MinimumJerk<DVec3>; 2],
+    pub(crate) trunk: [MinimumJerk<DVec3>; 3],
+    pub(crate) knees: [MinimumJerk<f64>; 2],
     pub(crate) steps: Vec<Step>,
     pub(crate) outcome: Outcome,
     pub(crate) goal: [Option<DVec3>; 2],
@@ -80,24 +80,24 @@ impl Reacher {
         let frame = Frame::new(body, style);
         let mut feet = Feet::new(body, placed_feet(start, body, frame.ankle_m), style.print);
         close_stride(&mut feet, start, body, &frame.values);
-        let rest = Glide::rest(DVec3::ZERO);
+        let rest = MinimumJerk::rest(DVec3::ZERO);
         let arms = [0, 1].map(|side| Arm::carried(side, &start.pose));
         let mut reacher = Reacher {
-            dice: Dice::new(style.seed),
+            rng: Rng::new(style.seed),
             now_secs: 0.0,
             feet,
-            twist: Glide::rest(0.0),
+            twist: MinimumJerk::rest(0.0),
             swing: rest,
-            squat: Glide::rest(0.0),
+            squat: MinimumJerk::rest(0.0),
             lean: rest,
-            tiptoe: Glide::rest(0.0),
-            heels: Glide::rest(0.0),
-            look: Glide::rest(0.0),
+            tiptoe: MinimumJerk::rest(0.0),
+            heels: MinimumJerk::rest(0.0),
+            look: MinimumJerk::rest(0.0),
             gaze: rest,
             arms,
             hips: [rest; 2],
             trunk: [rest; 3],
-            knees: [Glide::rest(0.0); 2],
+            knees: [MinimumJerk::rest(0.0); 2],
             steps: Vec::new(),
             outcome: Outcome::default(),
             goal: [None; 2],
@@ -228,9 +228,9 @@ impl Reacher {
         self.planned = targets;
         self.followed = None;
         self.replanned_secs = now;
-        let mut dice = self.dice;
-        let decision = self.decide(targets, &mut dice, false);
-        self.dice = dice;
+        let mut rng = self.rng;
+        let decision = self.decide(targets, &mut rng, false);
+        self.rng = rng;
         for side in (0..2).filter(|side| targets[*side].is_some()) {
             // Out of reach, the hand goes straight to the nearest point.
             self.arms[side].target = decision.ends[side];

@@ -3,7 +3,7 @@
 
 use crate::arm_place::Moment;
 use crate::compose::{ARMS, Composed};
-use crate::glide::Glide;
+use crate::minimum_jerk::MinimumJerk;
 use crate::outcome::Reason;
 use crate::reacher::Reacher;
 use glam::{DQuat, DVec3};
@@ -54,7 +54,7 @@ impl Fault {
 impl Reacher {
     /// What is in the way of arms from now on: looked at when the next goal is given.
     pub fn set_obstacles(&mut self, obstacles: &[crate::Obstacle]) {
-        self.obstacles = obstacles.iter().copied().filter(crate::Obstacle::is_finite).take(MOST_OBSTACLES).collect();
+        self.obstacles = obstacles.iter().copied().filter(crate::Obstacle::is_finite).take(MAX_OBSTACLES).collect();
     }
 
     /// Looks at the planned way and mends it where simple means do.
@@ -83,7 +83,7 @@ impl Reacher {
             }
         }
         let arm = &mut self.arms[side];
-        (arm.bow, arm.swivel) = (Glide::rest(best.1.bow), Glide::rest(best.1.swivel));
+        (arm.bow, arm.swivel) = (MinimumJerk::rest(best.1.bow), MinimumJerk::rest(best.1.swivel));
         if best.1.by_joints {
             let end = self.outcome.arrives_secs;
             arm.by_joints = led_by_joints(arm.share.begins_secs().clamp(now, end), end);
@@ -205,8 +205,8 @@ impl Reacher {
 }
 
 /// How far the joints lead a way \[1\]: at the end, when the trunk is nearly there, the hand is led by its place.
-fn led_by_joints(begins: f64, end: f64) -> Glide<f64> {
-    let mut led = Glide::rest(1.0);
+fn led_by_joints(begins: f64, end: f64) -> MinimumJerk<f64> {
+    let mut led = MinimumJerk::rest(1.0);
     led.go(begins, 0.0, 0.85 * (end - begins), 0.15 * (end - begins));
     led
 }
@@ -228,4 +228,4 @@ struct Look {
 }
 
 /// Obstacles that are looked at; more are passed over.
-pub const MOST_OBSTACLES: usize = 64;
+pub const MAX_OBSTACLES: usize = 64;

@@ -1,8 +1,8 @@
 //! The scheduler: when each controller begins and how long it takes.
 
 use crate::compose::Composed;
-use crate::glide::Glide;
 use crate::hand_path::{HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S};
+use crate::minimum_jerk::MinimumJerk;
 use crate::plan::Decision;
 use crate::reacher::Reacher;
 use glam::DVec3;
@@ -48,8 +48,8 @@ impl Reacher {
             }
             arm.girdle.go(now, aim.arms[side].girdle, from(timing.arm), arms_secs);
             arm.share.go_early(now, 1.0, from(timing.arm), arms_secs);
-            (arm.swivel, arm.bow) = (Glide::rest(aim.arms[side].swivel), Glide::rest(decision.bow[side]));
-            arm.by_joints = Glide::rest(0.0);
+            (arm.swivel, arm.bow) = (MinimumJerk::rest(aim.arms[side].swivel), MinimumJerk::rest(decision.bow[side]));
+            arm.by_joints = MinimumJerk::rest(0.0);
             if self.style.print {
                 let speed = self.style.speed_m_s.unwrap_or(PRINTED_SPEED_M_S);
                 let path = HandPath::new(composed.hands[side], arm.target, speed, PRINTED_RATIO);

@@ -3,7 +3,7 @@
 use crate::compose::{ARMS, Composed, Now};
 use crate::feet::{Placement, Support};
 use crate::frame::Frame;
-use crate::heel::{LEAN_FIRST_RAD, MOST_RAD};
+use crate::heel::{LEAN_FIRST_RAD, MAX_RAD};
 use crate::spine::{search_twist, squat_for, swing_axis};
 use crate::{Style, Values};
 use glam::{DQuat, DVec3};
@@ -115,7 +115,7 @@ impl Task<'_> {
         let beyond = (aim.swing.length() - self.values().most_swing_rad).max(0.0)
             + (aim.squat - self.values().most_squat_m).max(0.0)
             + (-aim.squat).max(0.0)
-            + (aim.tiptoe - MOST_TIPTOE_RAD).max(0.0)
+            + (aim.tiptoe - MAX_TIPTOE_RAD).max(0.0)
             + (-aim.tiptoe).max(0.0);
         let cost = 40.0 * gaps / scale + 30.0 * excess_rad + 8.0 * strain + 0.3 * unease_rad + effort + 100.0 * beyond;
         Judged { composed, gap_m, excess_rad, unease_rad, cost }
@@ -161,7 +161,7 @@ impl Task<'_> {
         if best.0 > self.values().stretch.1 && d.y > self.values().start_swing_m && self.frame.has_heels {
             // Up on the toes where the stretched arm does not do, as far as it takes.
             for share in TIPTOES {
-                let tiptoe = share * MOST_TIPTOE_RAD;
+                let tiptoe = share * MAX_TIPTOE_RAD;
                 let stretch = worst(&Aim { tiptoe, ..aim });
                 if stretch < best.0 - 1e-3 {
                     (aim.tiptoe, best.0) = (tiptoe, stretch);
@@ -278,7 +278,7 @@ impl Task<'_> {
         let mut steps = [1.0; COORDINATES];
         let mut looks = 0;
         let is_done = |judged: &Judged| judged.gap_m <= EXACT_M && judged.excess_rad <= 0.0;
-        while looks < MOST_LOOKS && steps.iter().any(|step: &f64| step.abs() > SMALLEST) {
+        while looks < MAX_LOOKS && steps.iter().any(|step: &f64| step.abs() > SMALLEST) {
             for coordinate in 0..COORDINATES {
                 if steps[coordinate].abs() <= SMALLEST {
                     continue;
@@ -329,7 +329,7 @@ impl Task<'_> {
 }
 
 /// How far a body rises on its toes, the lean before it with it \[rad\], and the shares that are tried.
-const MOST_TIPTOE_RAD: f64 = LEAN_FIRST_RAD + MOST_RAD;
+const MAX_TIPTOE_RAD: f64 = LEAN_FIRST_RAD + MAX_RAD;
 const TIPTOES: [f64; 4] = [0.35, 0.5, 0.75, 1.0];
 
 /// Steps in which the swing grows, and how often the last is halved: to about a degree.
@@ -344,5 +344,5 @@ const COORDINATES: usize = 9;
 /// The search ends when all steps are smaller than this share of the first ones, after so many looks, or after fewer once the hand
 /// arrives within all limits.
 const SMALLEST: f64 = 0.012;
-const MOST_LOOKS: usize = 150;
+const MAX_LOOKS: usize = 150;
 const ENOUGH_LOOKS: usize = 30;

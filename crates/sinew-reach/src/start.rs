@@ -4,8 +4,8 @@ use crate::Values;
 use crate::arm::Carried;
 use crate::compose::ARMS;
 use crate::feet::{Feet, Placement};
-use crate::glide::Glide;
 use crate::legs::StepKind;
+use crate::minimum_jerk::MinimumJerk;
 use crate::reacher::Reacher;
 use crate::walk::Stance;
 use glam::{DQuat, DVec3};
@@ -100,7 +100,7 @@ impl Reacher {
         let lasts = if before.is_some() { SETTLES_SECS.1 } else { SETTLES_SECS.0 };
         let glide = |now: DVec3, then: Option<(DVec3, f64)>| {
             let velocity = then.map_or(DVec3::ZERO, |(then, ago)| (now - then) / ago.max(1e-3));
-            Glide::moving(0.0, now, velocity.clamp_length_max(20.0), DVec3::ZERO, lasts)
+            MinimumJerk::moving(0.0, now, velocity.clamp_length_max(20.0), DVec3::ZERO, lasts)
         };
         self.heels.go(0.0, 1.0, 0.0, lasts);
         // A body that moves goes on for a little: it comes to stand where its feet land.
@@ -142,7 +142,7 @@ impl Reacher {
             let forward = hinge.cross(DVec3::Y);
             let yaw = crate::spine::wrapped(libm::atan2(forward.x, forward.z) - self.feet.planted[side].yaw_rad);
             let turn = if forward.length() > 0.3 { yaw.clamp(-0.8, 0.8) } else { 0.0 };
-            self.knees[side] = Glide::moving(0.0, turn, 0.0, 0.0, lasts);
+            self.knees[side] = MinimumJerk::moving(0.0, turn, 0.0, 0.0, lasts);
         }
     }
 }

@@ -124,7 +124,7 @@ pub struct Values {
     pub step_secs: f64,
 }
 
-/// Peak of a hand's speed against its mean \[1\], see [`Glide::go_early`](crate::Glide::go_early).
+/// Peak of a hand's speed against its mean \[1\], see [`MinimumJerk::go_early`](crate::MinimumJerk::go_early).
 const EARLY_PEAK: f64 = 2.263;
 
 impl Values {

@@ -31,7 +31,7 @@ pub struct Step {
 }
 
 /// Largest turn of a stance between two strides \[rad\].
-const MOST_TURN_RAD: f64 = 0.6;
+const MAX_TURN_RAD: f64 = 0.6;
 
 impl Stance {
     /// The stance of two feet.
@@ -83,8 +83,8 @@ pub(crate) fn walk(
     let turn = (to.yaw_rad - from.yaw_rad).abs();
     let unit = 0.56 * values.longest_step_m;
     let strides = if distance > 1.05 * values.longest_step_m { (distance / unit).ceil() } else { 1.0 };
-    let strides = strides.max((turn / MOST_TURN_RAD).ceil()).max(1.0);
-    if strides > (crate::feet::MOST_STRIDES / 2) as f64 {
+    let strides = strides.max((turn / MAX_TURN_RAD).ceil()).max(1.0);
+    if strides > (crate::feet::MAX_STRIDES / 2) as f64 {
         return false;
     }
     let strides = strides as usize;

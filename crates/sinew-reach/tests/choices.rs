@@ -1,7 +1,7 @@
 //! Whether to step, and how: the choices of ten thousand seeds against the probabilities that the paper states.
 
 use sinew_body::humanoid::Body;
-use sinew_reach::{Dice, StepKind, Style, Values, decide_step, half_probability, step_probability};
+use sinew_reach::{Rng, StepKind, Style, Values, decide_step, half_probability, step_probability};
 
 const SEEDS: u64 = 10_000;
 
@@ -18,7 +18,7 @@ fn steps_and_half_steps_are_as_frequent_as_stated() {
         let distance = near + share * (far - near);
         let (mut steps, mut halves) = (0.0, 0.0);
         for seed in 0..SEEDS {
-            if let Some(step) = decide_step(distance, &mut Dice::new(seed), &values) {
+            if let Some(step) = decide_step(distance, &mut Rng::new(seed), &values) {
                 steps += 1.0;
                 halves += f64::from(u8::from(step.kind == StepKind::Half));
             }
@@ -42,7 +42,7 @@ fn lengths_lie_between_the_shortest_and_the_longest_and_grow_with_the_distance()
     let mean = |share: f64| {
         let distance = values.convenient_m + share * (values.maximal_m - values.convenient_m);
         let lengths: Vec<f64> = (0..SEEDS)
-            .filter_map(|seed| decide_step(distance, &mut Dice::new(seed), &values))
+            .filter_map(|seed| decide_step(distance, &mut Rng::new(seed), &values))
             .map(|step| step.length_m)
             .collect();
         assert!(lengths.iter().all(|length| (values.shortest_step_m..=values.longest_step_m).contains(length)));

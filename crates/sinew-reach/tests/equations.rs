@@ -4,7 +4,7 @@
 use glam::DVec3;
 use sinew_body::humanoid::{Body, exp};
 use sinew_reach::{
-    Glide, HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S, Style, Values, ground_direction, root_shift, step_length,
+    HandPath, MinimumJerk, PRINTED_RATIO, PRINTED_SPEED_M_S, Style, Values, ground_direction, root_shift, step_length,
     swing_axis, swing_shares, twist_shares,
 };
 
@@ -149,7 +149,7 @@ fn eq9_the_step_length_blends_the_shortest_and_the_longest() {
 
 #[test]
 fn an_early_glide_is_fastest_after_a_third_of_its_time_and_knows_its_velocity_and_acceleration() {
-    let mut share = Glide::rest(0.0);
+    let mut share = MinimumJerk::rest(0.0);
     share.go_early(0.0, 1.0, 0.5, 2.0);
     let (h, mut fastest) = (1e-4, (0.0, 0.0));
     for index in 0..=500 {

@@ -5,7 +5,7 @@ mod common;
 
 use common::{any_target, bodies, goal, jump, measure, reacher};
 use glam::DVec3;
-use sinew_reach::{Dice, Reason, Style};
+use sinew_reach::{Reason, Rng, Style};
 
 /// Of the ten thousand targets every so many-th is tried here.
 const EVERY: usize = 60;
@@ -15,7 +15,7 @@ fn whatever_is_reachable_is_reached_within_limits_on_still_feet_and_in_balance()
     let (mut reached, mut count) = (0, 0);
     for body in bodies() {
         for seed in (0..10_000).step_by(EVERY) {
-            let target = any_target(&mut Dice::new(seed), body.stature_m());
+            let target = any_target(&mut Rng::new(seed), body.stature_m());
             let one = measure(&body, &Style { seed, ..Style::default() }, target, 60.0);
             assert_eq!(one.fault(), None, "{:.1} m, seed {seed}, {target}: {one:?}", body.stature_m());
             count += 1;
@@ -30,7 +30,7 @@ fn whatever_is_reachable_is_reached_within_limits_on_still_feet_and_in_balance()
 fn hands_and_joints_move_without_a_jump_in_velocity_or_acceleration() {
     let body = &bodies()[0];
     for seed in (0..10_000).step_by(400) {
-        let target = any_target(&mut Dice::new(seed), body.stature_m());
+        let target = any_target(&mut Rng::new(seed), body.stature_m());
         let goal = goal(target);
         let mut reacher = reacher(body, &Style { seed, ..Style::default() });
         reacher.reach(&goal);

@@ -7,7 +7,7 @@ use crate::input::Input;
 use crate::limits::Limits;
 use crate::objective::{Frame, Objective, Row, Weighing};
 use crate::settings::{REFERENCE_MASS_KG, REFLEX_SECS, Settings, Weights};
-use crate::task::{MOST_ROWS, Task, rows_of};
+use crate::task::{MAX_ROWS, Task, rows_of};
 use crate::torque::{Differences, world_turn};
 use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
@@ -135,7 +135,7 @@ impl Response {
             body,
             settings,
             weights,
-            rows: Vec::with_capacity(MOST_ROWS),
+            rows: Vec::with_capacity(MAX_ROWS),
             state: State::at(first, first),
             report: Report::default(),
         }

@@ -8,7 +8,7 @@ use sinew_body::dynamics::Real;
 
 /// A pivot is at least this part of the diagonal entry that it came from: one that is not positive (rounding on a
 /// hopeless scale) is lifted, so that the result is finite for finite input.
-const LEAST_PIVOT: f64 = 1e-14;
+const MIN_PIVOT: f64 = 1e-14;
 
 /// And at least this.
 const TINY: f64 = 1e-280;
@@ -59,7 +59,7 @@ impl<S: Real, const N: usize> Factor<S, N> {
                     *value -= other * factor;
                 }
             }
-            let least = (matrix[j][j].abs() * S::splat(LEAST_PIVOT)).larger(S::splat(TINY));
+            let least = (matrix[j][j].abs() * S::splat(MIN_PIVOT)).larger(S::splat(TINY));
             let pivot = column[j - FROM].larger(least);
             let inverse = pivot.recip();
             pivots[j] = pivot;

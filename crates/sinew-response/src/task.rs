@@ -87,7 +87,7 @@ impl Task {
 }
 
 /// Most rows of one step: two for each body.
-pub(crate) const MOST_ROWS: usize = 2 * UPPER_NODES;
+pub(crate) const MAX_ROWS: usize = 2 * UPPER_NODES;
 
 /// Rows weigh no more than this: far above every other row, far below what costs digits.
 const HEAVIEST: f64 = 1e5;
@@ -96,7 +96,7 @@ fn push(row: Row<f64>, rows: &mut Vec<Row<f64>>) {
     let finite =
         row.wanted.is_finite() && row.weight.is_finite() && row.direction.iter().all(|value| value.is_finite());
     let reaches = row.direction.iter().any(|&value| value != 0.0);
-    if finite && reaches && row.weight > 0.0 && rows.len() < MOST_ROWS {
+    if finite && reaches && row.weight > 0.0 && rows.len() < MAX_ROWS {
         rows.push(Row { weight: row.weight.min(HEAVIEST), ..row });
     }
 }

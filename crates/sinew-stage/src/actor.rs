@@ -1,11 +1,11 @@
 //! One character on the stage: its layers, and how its body follows them.
 
+use crate::foot_lock::FootLock;
 use crate::motion_source::MotionSource;
 use crate::performance::Performance;
 use crate::reaching::{self, Reaching};
 use crate::scene::TrackerKind;
 use crate::scripts::Running;
-use crate::stance::Stance;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, Node, Pose};
 use sinew_control::graph::{Cause, Graph, GraphPlayer};
@@ -41,7 +41,7 @@ pub struct Actor {
     /// Height of the floor that its soles keep to when no source moves its hips, for a tracker that holds the hips \[m\].
     pub(crate) sole_m: Option<f64>,
     /// What moves that place over the ground.
-    pub(crate) stance: Stance,
+    pub(crate) foot_lock: FootLock,
     pub(crate) motion: Option<MotionSource>,
     pub(crate) reaching: Option<Reaching>,
     /// How often it was told to reach.
@@ -57,7 +57,7 @@ pub struct Actor {
 }
 
 /// Signals that may wait for a step.
-const MOST_SIGNALS: usize = 100;
+const MAX_SIGNALS: usize = 100;
 
 impl Actor {
     pub(crate) fn new(
@@ -88,7 +88,7 @@ impl Actor {
             response: None,
             stand: (DVec3::ZERO, DQuat::IDENTITY),
             sole_m: None,
-            stance: Stance::default(),
+            foot_lock: FootLock::default(),
             motion: None,
             reaching: None,
             reaches: 0,
@@ -224,7 +224,7 @@ impl Actor {
     }
 
     pub(crate) fn signal(&mut self, name: &str) {
-        if self.signals.len() < MOST_SIGNALS {
+        if self.signals.len() < MAX_SIGNALS {
             self.signals.push(name.to_owned());
         }
     }
@@ -330,14 +330,14 @@ impl Actor {
     }
 
     /// A body whose source knows no place goes where its standing foot has it go.
-    pub(crate) fn step_stance(&mut self) {
+    pub(crate) fn step_foot_lock(&mut self) {
         if self.sole_m.is_none() || self.moves_root() {
             return;
         }
         let mut locals = self.target.joints.map(|joint| joint.rotation);
         locals[0] = self.stand.1;
         let pose = Pose::from_locals(self.stand.0, &locals);
-        self.stand.0 += self.stance.step(&self.body, &pose);
+        self.stand.0 += self.foot_lock.step(&self.body, &pose);
     }
 
     /// Decides what is wanted at the end of the next step. Returns what the graph did, if it did something: cause and effect.

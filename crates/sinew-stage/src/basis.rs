@@ -11,7 +11,7 @@ use sinew_response::{Basis, Motion, Settings, stable_compliance};
 const SAMPLE_WALK: &[u8] = include_bytes!("../../../samples/walk.bvh");
 
 /// Longest stretch of a clip that is looked at, in frames: ten seconds at 60 Hz show any style.
-const MOST_FRAMES: usize = 600;
+const MAX_FRAMES: usize = 600;
 
 pub(crate) fn basis_for(
     spec: &CharacterSpec,
@@ -22,7 +22,7 @@ pub(crate) fn basis_for(
     let settings = Settings { time_step_secs: frame_secs, compliance: spec.response.compliance, ..Settings::default() };
     let (sample, poses);
     let poses = match motion {
-        Some(motion) => &motion.poses()[..motion.poses().len().min(MOST_FRAMES)],
+        Some(motion) => &motion.poses()[..motion.poses().len().min(MAX_FRAMES)],
         None => {
             sample = MotionFile::from_bvh(SAMPLE_WALK, &ReadOptions::default()).map_err(|error| error.to_string())?;
             let reduction = reduction(&sample, spec)?;

@@ -2,9 +2,9 @@
 
 use crate::Stage;
 use crate::actor::Actor;
+use crate::apply_command::heading;
 use crate::cast::Cast;
 use crate::motion_source::{self, MotionSource, Play};
-use crate::obey::heading;
 use crate::performance::Performance;
 use crate::scene::{CharacterSpec, RopeSpec, Scene, SourceSpec, TrackerKind};
 use glam::DVec3;

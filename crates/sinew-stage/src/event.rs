@@ -23,15 +23,15 @@ pub struct Events {
 }
 
 /// Events that are kept.
-const MOST_EVENTS: usize = 10_000;
+const MAX_EVENTS: usize = 10_000;
 
 /// Length of a cause or an effect that is kept \[bytes\].
-const MOST_TEXT: usize = 400;
+const MAX_TEXT: usize = 400;
 
 impl Events {
     /// Notes an event.
     pub fn note(&mut self, event: Event) {
-        if self.list.len() >= MOST_EVENTS {
+        if self.list.len() >= MAX_EVENTS {
             self.dropped += 1;
             return;
         }
@@ -50,8 +50,8 @@ impl Events {
 }
 
 fn cut(mut text: String) -> String {
-    if text.len() > MOST_TEXT {
-        let end = (0..=MOST_TEXT).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
+    if text.len() > MAX_TEXT {
+        let end = (0..=MAX_TEXT).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
         text.truncate(end);
         text.push('…');
     }

@@ -29,7 +29,7 @@ impl Stage {
         let step = self.world.frame().step;
         let steps = over_secs.map_or(0, |secs| step_of(secs, self.world.settings().step_secs()));
         for &what in things {
-            self.spans.fades.retain(|fade| fade.what != what);
+            self.timed_effects.fades.retain(|fade| fade.what != what);
             if steps == 0 {
                 self.set_scale(what, scale);
                 continue;
@@ -39,23 +39,23 @@ impl Stage {
                 Weighs::Prop(prop) => self.world.prop_gravity(prop),
             };
             let end_step = step.saturating_add(steps);
-            self.spans.fades.push(Fade { what, from, to: scale, begin_step: step, end_step });
+            self.timed_effects.fades.push(Fade { what, from, to: scale, begin_step: step, end_step });
         }
     }
 
     /// What is on its way goes on by a step.
     pub(crate) fn fade_on(&mut self, step: u64) {
-        if self.spans.fades.is_empty() {
+        if self.timed_effects.fades.is_empty() {
             return;
         }
-        let mut fades = std::mem::take(&mut self.spans.fades);
+        let mut fades = std::mem::take(&mut self.timed_effects.fades);
         for fade in &fades {
             let done = (step + 1).saturating_sub(fade.begin_step) as f64;
             let share = (done / (fade.end_step - fade.begin_step) as f64).min(1.0);
             self.set_scale(fade.what, fade.from + (fade.to - fade.from) * share);
         }
         fades.retain(|fade| step + 1 < fade.end_step);
-        self.spans.fades = fades;
+        self.timed_effects.fades = fades;
     }
 
     fn set_scale(&mut self, what: Weighs, scale: f64) {

@@ -3,16 +3,17 @@
 //! [`scene`] reads the file, [`Stage`] runs it, [`take`] records what happened to it, [`Recording`] keeps what it showed.
 
 mod actor;
+mod apply_command;
+mod apply_grasp;
+mod apply_kd;
+mod apply_to_stage;
 mod basis;
 mod build;
 mod cast;
 mod event;
 mod fade;
+mod foot_lock;
 mod motion_source;
-mod obey;
-mod obey_grasp;
-mod obey_kd;
-mod obey_stage;
 mod performance;
 mod reach_aim;
 mod reach_back;
@@ -21,12 +22,11 @@ mod reaching;
 mod reaction;
 mod recording;
 pub mod scene;
+mod script_snapshot;
 mod scripts;
-mod sight;
-mod span;
 mod stage;
-mod stance;
 pub mod take;
+mod timed_effect;
 mod tracking;
 
 pub use actor::Actor;

@@ -1,6 +1,6 @@
 //! A clip as the source of the wanted pose.
 
-use crate::obey::heading;
+use crate::apply_command::heading;
 use crate::scene::{CharacterSpec, Scene};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, log};
@@ -27,7 +27,7 @@ const STARTS_SECS: f64 = 0.8;
 const NEAR_SECS: f64 = 0.3;
 
 /// Most frames that a repetition makes: an hour at 60 Hz.
-const MOST_FRAMES: usize = 216_000;
+const MAX_FRAMES: usize = 216_000;
 
 /// Reads a motion file that a scene names.
 pub(crate) fn read(scene: &Scene, name: &str) -> Result<MotionFile, String> {
@@ -75,7 +75,7 @@ impl MotionSource {
     ) -> Result<MotionSource, String> {
         let Play { hz, mut start_secs, repeats, until_secs, is_filtered, stands_on_floor } = *play;
         let humanoid = file.body_parts().map_err(|error| error.to_string())?;
-        let wanted = (((start_secs + until_secs) * hz).ceil() as usize + 2).min(MOST_FRAMES);
+        let wanted = (((start_secs + until_secs) * hz).ceil() as usize + 2).min(MAX_FRAMES);
         let clip = resample(&file.clip, hz);
         let clip = match repeats.then(|| find_cycle(&clip, humanoid)).flatten() {
             Some(cycle) => {

@@ -13,7 +13,7 @@ impl Stage {
     pub(crate) fn pass_through(&mut self, index: usize, aimed: &[Option<Aimed>; 2]) {
         for (side, aimed) in aimed.iter().enumerate() {
             let Some(Aimed::Prop(prop, _)) = *aimed else { continue };
-            self.world.set_passing_prop(index, HANDS[side], prop, true);
+            self.world.set_passes_prop(index, HANDS[side], prop, true);
             let through = &mut self.actors[index].through;
             if !through.contains(&(side, prop)) {
                 through.push((side, prop));
@@ -27,7 +27,7 @@ impl Stage {
         through.retain(|&(side, prop)| {
             let stays = self.is_aimed(index, side, prop) || !self.is_clear(index, side, prop);
             if !stays {
-                self.world.set_passing_prop(index, HANDS[side], prop, false);
+                self.world.set_passes_prop(index, HANDS[side], prop, false);
             }
             stays
         });

@@ -2,7 +2,7 @@
 
 use crate::Stage;
 use crate::scene::JointKind;
-use crate::sight::{names, snapshot};
+use crate::script_snapshot::{names, snapshot};
 use sinew_control::{Action, Command};
 use sinew_script::{Script, StartInfo};
 
@@ -134,7 +134,7 @@ impl Stage {
                 self.note(format!("{name} prints"), line);
             }
             for command in outcome.commands {
-                self.obey(&command, &name);
+                self.apply(&command, &name);
             }
             if let Some(error) = outcome.error {
                 self.note(&name, format!("stopped by an error: {error}"));

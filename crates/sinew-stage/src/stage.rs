@@ -10,8 +10,8 @@ use crate::event::{Event, Events};
 use crate::reaction::Reactions;
 use crate::scene::Scene;
 use crate::scripts::Running;
-use crate::span::Spans;
 use crate::take::{self, Stamped};
+use crate::timed_effect::TimedEffects;
 use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command};
 use sinew_script::ScriptHost;
@@ -25,12 +25,12 @@ pub struct Stage {
     pub(crate) cast: Cast,
     pub(crate) world: World,
     pub(crate) actors: Vec<Actor>,
-    pub(crate) spans: Spans,
+    pub(crate) timed_effects: TimedEffects,
     /// Shapes that parts have in place of their own.
     pub(crate) shapes: BTreeMap<(usize, Node), PartShape>,
     pub(crate) events: Events,
     pub(crate) host: Option<ScriptHost>,
-    /// Commands that came from outside, with the steps in which they were obeyed.
+    /// Commands that came from outside, with the steps in which they were applied.
     pub(crate) record: Vec<Stamped>,
     pub(crate) records: bool,
     /// Kills of scripts that a take prescribes; `None` when scripts are held to time themselves.
@@ -84,7 +84,7 @@ impl Stage {
             cast,
             world,
             actors,
-            spans: Spans::default(),
+            timed_effects: TimedEffects::default(),
             shapes: BTreeMap::new(),
             events: Events::default(),
             host,
@@ -102,15 +102,15 @@ impl Stage {
         Ok(stage)
     }
 
-    /// Gives a command; it is obeyed at the beginning of the next step. One that does not suit the scene is noted among the
+    /// Gives a command; it is applied at the beginning of the next step. One that does not suit the scene is noted among the
     /// events as refused, with the reason, and does nothing else.
     pub fn command(&mut self, command: Command) {
-        if self.inbox.len() < MOST_INBOX {
+        if self.inbox.len() < MAX_INBOX {
             self.inbox.push(command);
         }
     }
 
-    /// Commands bound to a key of the scene; obeyed at the beginning of the next step. Returns whether there are any.
+    /// Commands bound to a key of the scene; applied at the beginning of the next step. Returns whether there are any.
     pub fn press(&mut self, key: &str) -> bool {
         let bound: Vec<Command> = self
             .scene
@@ -129,11 +129,11 @@ impl Stage {
     /// One physics step.
     pub fn step(&mut self) {
         let step = self.world.frame().step;
-        for ending in self.spans.take_due(step) {
+        for ending in self.timed_effects.take_due(step) {
             self.end(&ending);
         }
         while let Some((_, line, command)) = self.timed.pop_if(|(at, ..)| *at <= step) {
-            self.obey(&command, &format!("scene, line {line}"));
+            self.apply(&command, &format!("scene, line {line}"));
         }
         let prescribed = take::due(self.prescribed.as_deref().unwrap_or_default(), step);
         let prescribed = prescribed.iter().filter(|one| !matches!(one.command.action, Action::ScriptKilled { .. }));
@@ -145,13 +145,13 @@ impl Stage {
                     if self.records {
                         self.record.push(Stamped { step, command: command.clone() });
                     }
-                    self.obey(&command, "command");
+                    self.apply(&command, "command");
                 }
                 Err(problem) => self.note("command", format!("refused: {problem}")),
             }
         }
         for (command, cause) in self.reactions.fired(self.world.frame(), &self.cast) {
-            self.obey(&command, &cause);
+            self.apply(&command, &cause);
         }
         self.step_scripts(step);
         self.step_actors();
@@ -238,8 +238,8 @@ impl Stage {
 
     fn push_on(&mut self, step: u64) {
         let world = &mut self.world;
-        self.spans.pushes.retain(|push| push.until_step > step);
-        for push in &self.spans.pushes {
+        self.timed_effects.pushes.retain(|push| push.until_step > step);
+        for push in &self.timed_effects.pushes {
             match push.on {
                 sinew_world::Entity::Part(character, node) => {
                     let at = push.at.map(|at| world.frame().characters[character].part(node).point(at));
@@ -279,7 +279,7 @@ impl Stage {
 }
 
 /// Commands that may wait for a step.
-const MOST_INBOX: usize = 10_000;
+const MAX_INBOX: usize = 10_000;
 
 /// The step that begins at, or first after, a time.
 pub(crate) fn step_of(secs: f64, step_secs: f64) -> u64 {

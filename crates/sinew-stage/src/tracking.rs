@@ -57,7 +57,7 @@ impl Stage {
                 }
                 let actor = &mut self.actors[index];
                 if wants_pose {
-                    actor.step_stance();
+                    actor.step_foot_lock();
                 }
                 let wanted = wants_pose.then(|| actor.wanted_pose(frame_end));
                 let Some(tracker) = &mut actor.kd else { return };

@@ -1,13 +1,13 @@
 //! A character in the world: its bodies, joints, and what holds them.
 
-use crate::borne::Borne;
-use crate::effort::Before;
 use crate::engine::Engine;
+use crate::external_force::Before;
 use crate::extra_shape::ExtraShape;
-use crate::footing::Footing;
 use crate::joint::{LimitSpring, Start, write_ball, write_hinge};
 use crate::pin::pin_force;
 use crate::ragdoll::{is_hinge, part_inertia};
+use crate::reaction_body::ReactionBody;
+use crate::warm_start::WarmStart;
 use crate::{CharacterSpec, Drive, Pin};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
@@ -41,14 +41,14 @@ pub(crate) struct Character {
     pub gravity_scales: [f64; Node::COUNT],
     pub planes: Vec<ImpulseJointHandle>,
     /// What each joint's parent feels at the start of a step.
-    pub borne: [Borne; Node::COUNT],
+    pub borne: [WarmStart; Node::COUNT],
     pub extra_shapes: Vec<ExtraShape>,
     /// Forces of pushes in the next step, and in the last one \[N\].
     pub pushes: [[DVec3; Node::COUNT]; 2],
     /// For the meter.
     pub before: [Before; Node::COUNT],
     /// What its pins push off from.
-    pub footing: Option<Footing>,
+    pub reaction_body: Option<ReactionBody>,
     limit_spring: LimitSpring,
     stays_awake: bool,
 }
@@ -74,11 +74,11 @@ impl Character {
             outboard,
             gravity_scales: [1.0; Node::COUNT],
             planes: Vec::new(),
-            borne: [Borne::default(); Node::COUNT],
+            borne: [WarmStart::default(); Node::COUNT],
             extra_shapes: Vec::new(),
             pushes: [[DVec3::ZERO; Node::COUNT]; 2],
             before: [Before::default(); Node::COUNT],
-            footing: None,
+            reaction_body: None,
             limit_spring,
             stays_awake: false,
         }
@@ -103,8 +103,8 @@ impl Character {
         for node in Node::ALL {
             self.prepare_body(engine, node, step_secs, &loads[node.index()]);
         }
-        if let Some(footing) = &mut self.footing {
-            footing.press(engine, &self.bodies, &self.before);
+        if let Some(reaction_body) = &mut self.reaction_body {
+            reaction_body.press(engine, &self.bodies, &self.before);
         }
     }
 

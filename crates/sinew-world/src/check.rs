@@ -31,43 +31,43 @@ pub const CHECKED_SECS: f64 = 10.0;
 
 impl RagdollReport {
     /// A solver by sweeps loses springs between masses farther apart than this.
-    pub const MOST_MASS_RATIO: f64 = 60.0;
+    pub const MAX_MASS_RATIO: f64 = 60.0;
     /// A rest pose farther beyond its limits than this fights them \[rad\]: two degrees.
-    pub const LEAST_ROOM_RAD: f64 = -0.035;
+    pub const MIN_ROOM_RAD: f64 = -0.035;
     /// More pairs that pass through each other than this are a body whose shapes do not fit its bones.
-    pub const MOST_OVERLAPS: usize = 30;
+    pub const MAX_OVERLAPS: usize = 30;
     /// What rests moves no farther \[m\].
-    pub const MOST_DRIFT_M: f64 = 1e-3;
+    pub const MAX_DRIFT_M: f64 = 1e-3;
     /// Joints at rest gape no wider \[m\].
-    pub const MOST_GAP_M: f64 = 1e-3;
+    pub const MAX_GAP_M: f64 = 1e-3;
 
     /// What is wrong, in words; empty for a sound ragdoll.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let (ratio, node) = self.mass_ratio;
-        if ratio > Self::MOST_MASS_RATIO {
+        if ratio > Self::MAX_MASS_RATIO {
             let name = node.part().name();
             faults.push(format!(
                 "{name} and its neighbour differ in mass by {ratio:.0}: springs between them will sag; make it heavier"
             ));
         }
         let (room, node) = self.room_rad;
-        if room < Self::LEAST_ROOM_RAD {
+        if room < Self::MIN_ROOM_RAD {
             let (name, degrees) = (node.part().name(), -room.to_degrees());
             faults.push(format!("{name} rests {degrees:.1}° beyond its limit; widen the limit to the pose"));
         }
-        if self.overlaps.len() > Self::MOST_OVERLAPS {
+        if self.overlaps.len() > Self::MAX_OVERLAPS {
             faults.push(format!("{} pairs of parts lie in each other; make the shapes thinner", self.overlaps.len()));
         }
         if self.sleeps_after_secs.is_none() {
             faults.push(format!("laid on the ground it does not come to rest within {CHECKED_SECS} s"));
         }
         for (drift, how) in [(self.limp_drift_m, "lying limp"), (self.held_drift_m, "held by springs")] {
-            if drift > Self::MOST_DRIFT_M {
+            if drift > Self::MAX_DRIFT_M {
                 faults.push(format!("{how} it drifts by {:.2} mm in {CHECKED_SECS} s", drift * 1e3));
             }
         }
-        if self.gap_m > Self::MOST_GAP_M {
+        if self.gap_m > Self::MAX_GAP_M {
             faults.push(format!("its joints gape by {:.2} mm at rest", self.gap_m * 1e3));
         }
         faults

@@ -1,6 +1,6 @@
 //! The rigid-body library's own sets, kept in one place: nothing outside this crate sees its types.
 
-use crate::passing::Passing;
+use crate::collision_filter::CollisionFilter;
 use crate::{Entity, WorldSettings};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
@@ -21,7 +21,7 @@ pub(crate) struct Engine {
     pub gravity: DVec3,
     /// The fixed body that carries the floor and the planes that hold characters.
     pub ground: RigidBodyHandle,
-    pub passing: Passing,
+    pub collision_filter: CollisionFilter,
 }
 
 impl Engine {
@@ -51,7 +51,7 @@ impl Engine {
             ccd: CCDSolver::new(),
             gravity: DVec3::new(0.0, -settings.gravity_m_s2, 0.0),
             ground: RigidBodyHandle::invalid(),
-            passing: Passing::default(),
+            collision_filter: CollisionFilter::default(),
         };
         // With its feature on, the library would take every core of the machine.
         engine.set_threads(1);
@@ -92,7 +92,7 @@ impl Engine {
             &mut self.multibody_joints,
             &mut self.soft_bodies,
             &mut self.ccd,
-            &self.passing,
+            &self.collision_filter,
             &(),
         );
     }

@@ -13,7 +13,7 @@ pub(crate) struct ExtraShape {
 }
 
 /// Shapes that a character may have on top of its own.
-const MOST_EXTRA_SHAPES: usize = 64;
+const MAX_EXTRA_SHAPES: usize = 64;
 
 impl World {
     /// Adds a shape to a part, in its frame, under a name; one of that name on that part is replaced. It weighs nothing.
@@ -23,7 +23,7 @@ impl World {
     pub fn add_shape(&mut self, character: usize, node: Node, name: &str, solid: &Solid) -> Result<(), SpecError> {
         self.remove_shape(character, node, name);
         let Some(one) = self.characters.get_mut(character) else { return Ok(()) };
-        if one.extra_shapes.len() >= MOST_EXTRA_SHAPES {
+        if one.extra_shapes.len() >= MAX_EXTRA_SHAPES {
             return Err(SpecError::TooManyShapes);
         }
         let collider = part_collider(solid, one.spec.surface, character, node).ok_or(SpecError::NoShape)?;

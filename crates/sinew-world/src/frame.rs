@@ -1,6 +1,6 @@
 //! What is known of a world after a step: all that controllers sense, sinks write and clients are sent.
 
-use crate::{Spent, margin};
+use crate::{ExternalForces, margin};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose};
 
@@ -59,7 +59,7 @@ pub struct CharacterFrame {
     /// Corners of the support polygon on the ground, counter-clockwise seen from above; empty in the air \[m\].
     pub support: Vec<DVec3>,
     /// What pins, and whatever else holds parts from outside, spent in this step; by [`Node::index`].
-    pub spent: [Spent; Node::COUNT],
+    pub external: [ExternalForces; Node::COUNT],
     /// The body went wrong in this step and was put back.
     pub was_reset: bool,
 }

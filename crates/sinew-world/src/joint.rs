@@ -56,7 +56,7 @@ impl Start {
 }
 
 /// Largest velocity by which a row's target is shifted \[rad/s\].
-const MOST_SHIFT_RAD_S: f64 = 100.0;
+const MAX_SHIFT_RAD_S: f64 = 100.0;
 
 /// One row of a spring: `error` is the turn from wanted to present \[rad\].
 #[derive(Clone, Copy, Default)]
@@ -79,7 +79,7 @@ impl Row {
     /// missing for the torque of its law, λ (h k + d) = v + …, by a velocity that is that much off.
     fn begun_with(self, torque: f64, sub_step_secs: f64) -> (Row, f64) {
         let stiff = self.stiffness * sub_step_secs + self.damping;
-        let most = MOST_SHIFT_RAD_S * stiff;
+        let most = MAX_SHIFT_RAD_S * stiff;
         let torque = torque.clamp(-most, most);
         if stiff <= 0.0 {
             return (self, 0.0);

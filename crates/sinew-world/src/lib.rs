@@ -4,36 +4,36 @@
 //! its place. This crate knows nothing of where poses come from.
 
 mod attachment;
-mod borne;
 mod character;
 mod check;
+mod collision_filter;
 mod drive;
-mod effort;
 mod engine;
+mod external_force;
 mod extra_shape;
-mod footing;
 mod frame;
 mod joint;
 mod nearest;
-mod passing;
 mod pin;
 mod plane;
 mod prop;
 mod prop_joint;
 mod ragdoll;
+mod reaction_body;
+mod readback;
 mod rows;
+mod sanitize;
 mod settings;
 mod solid;
-mod sound;
 mod spec;
 mod support;
-mod watch;
+mod warm_start;
 mod world;
 
 pub use attachment::Held;
 pub use check::{CHECKED_SECS, RagdollReport, check_ragdoll};
 pub use drive::Drive;
-pub use effort::{Effort, Spent};
+pub use external_force::{ExternalForce, ExternalForces};
 pub use frame::{BodyState, CharacterFrame, Contact, Entity, Frame};
 pub use nearest::Nearest;
 pub use pin::Pin;

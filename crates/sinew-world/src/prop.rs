@@ -2,7 +2,7 @@
 
 use crate::engine::{Engine, tag};
 use crate::solid::Form;
-use crate::{Entity, Motion, PropSpec, SpecError, sound};
+use crate::{Entity, Motion, PropSpec, SpecError, sanitize};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 
@@ -16,15 +16,15 @@ pub(crate) struct Prop {
 impl Prop {
     pub fn build(engine: &mut Engine, spec: PropSpec, index: usize) -> Result<Prop, SpecError> {
         let (Some(rotation), Some(velocity), Some(spin), Some(gravity_scale)) = (
-            sound::unit(spec.rotation).filter(|_| sound::is_place(spec.position)),
-            sound::velocity(spec.velocity),
-            sound::spin(spec.spin),
-            sound::gravity_scale(spec.gravity_scale),
+            sanitize::unit(spec.rotation).filter(|_| sanitize::is_place(spec.position)),
+            sanitize::velocity(spec.velocity),
+            sanitize::spin(spec.spin),
+            sanitize::gravity_scale(spec.gravity_scale),
         ) else {
             return Err(SpecError::NotFinite);
         };
         let drag = if spec.drag_per_s.is_finite() { spec.drag_per_s.clamp(0.0, 1e3) } else { 0.0 };
-        let surface = sound::surface(spec.surface);
+        let surface = sanitize::surface(spec.surface);
         let shape = spec.solid.shape().ok_or(SpecError::NoShape)?;
         let (kind, mass) = match spec.motion {
             Motion::Fixed => (RigidBodyType::Fixed, None),
@@ -70,7 +70,7 @@ impl Prop {
             && let Some(body) = engine.bodies.get_mut(self.handle)
         {
             let velocity = body.linvel() + self.acceleration * step_secs;
-            body.set_linvel(velocity.clamp_length_max(sound::MAX_SPEED_M_S), true);
+            body.set_linvel(velocity.clamp_length_max(sanitize::MAX_SPEED_M_S), true);
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::joint::stop_at;
 use crate::rows::joint_impulse;
-use crate::{Entity, SpecError, World, sound};
+use crate::{Entity, SpecError, World, sanitize};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 
@@ -103,7 +103,7 @@ const FULL_AT_PLACE: f64 = 0.1;
 const PLACE_SECS: f64 = 0.1;
 
 /// Joints of props in a world.
-const MOST_JOINTS: usize = 10_000;
+const MAX_JOINTS: usize = 10_000;
 
 pub(crate) struct PropJoint {
     spec: PropJointSpec,
@@ -120,9 +120,9 @@ impl World {
     /// Fastens two things as they lie now. Returns the joint's number.
     ///
     /// # Errors
-    /// When the two are the same or not there, a number is not sound, or a motor drives what cannot be driven.
+    /// When the two are the same or not there, a number is not sanitize, or a motor drives what cannot be driven.
     pub fn add_prop_joint(&mut self, spec: PropJointSpec) -> Result<usize, SpecError> {
-        if !is_sound(&spec) || self.prop_joints.len() >= MOST_JOINTS {
+        if !is_sound(&spec) || self.prop_joints.len() >= MAX_JOINTS {
             return Err(SpecError::NoJoint);
         }
         let (Some(one), Some(other)) = (self.handle(spec.between[0]), self.handle(spec.between[1])) else {
@@ -318,7 +318,7 @@ fn base(kind: &PropJointKind) -> GenericJoint {
 
 fn is_sound(spec: &PropJointSpec) -> bool {
     let gain = |gain: f64| (0.0..1e9).contains(&gain);
-    let length = |length: f64| (0.0..sound::FARTHEST_M).contains(&length);
+    let length = |length: f64| (0.0..sanitize::FARTHEST_M).contains(&length);
     let axis = |axis: DVec3| axis.is_finite() && axis.length() > 1e-6;
     let around_zero = |range: Option<[f64; 2]>, most: f64| {
         range.is_none_or(|[low, high]| (-most..=0.0).contains(&low) && (0.0..=most).contains(&high) && low < high)
@@ -326,21 +326,21 @@ fn is_sound(spec: &PropJointSpec) -> bool {
     let kind = match spec.kind {
         PropJointKind::Fixed | PropJointKind::Ball => true,
         PropJointKind::Hinge { axis: about, range } => axis(about) && around_zero(range, 3.0),
-        PropJointKind::Slider { axis: along, range } => axis(along) && around_zero(range, sound::FARTHEST_M),
+        PropJointKind::Slider { axis: along, range } => axis(along) && around_zero(range, sanitize::FARTHEST_M),
         PropJointKind::Rope { length_m } => length(length_m) && length_m > 1e-4,
         PropJointKind::Spring { length_m, stiffness_n_m, damping_n_s_m } => {
             length(length_m) && gain(stiffness_n_m) && gain(damping_n_s_m) && stiffness_n_m + damping_n_s_m > 0.0
         }
     };
-    kind && spec.anchors.into_iter().all(sound::is_place)
+    kind && spec.anchors.into_iter().all(sanitize::is_place)
         && spec.break_force_n.is_none_or(|force| force > 0.0)
         && spec.motor.is_none_or(|motor| is_motor(&motor, &spec.kind))
 }
 
 fn is_motor(motor: &Motor, kind: &PropJointKind) -> bool {
     let aim = match motor.aim {
-        Aim::Speed(speed) => speed.abs() <= sound::MAX_SPEED_M_S,
-        Aim::Place(place) => place.abs() <= sound::FARTHEST_M,
+        Aim::Speed(speed) => speed.abs() <= sanitize::MAX_SPEED_M_S,
+        Aim::Place(place) => place.abs() <= sanitize::FARTHEST_M,
     };
     aim && (0.0..=crate::MAX_FORCE_N).contains(&motor.strength)
         && motor.strength > 0.0

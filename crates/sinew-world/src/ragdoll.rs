@@ -7,7 +7,7 @@
 use crate::character::Character;
 use crate::engine::Engine;
 use crate::solid::Form;
-use crate::{CharacterSpec, Drive, Entity, Solid, SpecError, Surface, sound};
+use crate::{CharacterSpec, Drive, Entity, Solid, SpecError, Surface, sanitize};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node, Pose as BodyPose, Sole};
@@ -15,7 +15,7 @@ use sinew_body::humanoid::{Body, Node, Pose as BodyPose, Sole};
 /// Smallest moment of inertia of a part, relative to the body's mass times its stature squared \[1\]: about 0.009 kg m² for
 /// 80 kg and 1.7 m. A collar bone or a foot alone has a tenth of that, and springs that hold a whole body
 /// through it converge poorly; nobody sees the difference, since such parts are carried by their neighbours.
-const LEAST_INERTIA: f64 = 4e-5;
+const MIN_INERTIA: f64 = 4e-5;
 
 /// Friction of a joint that is let go, relative to its outboard inertia \[1/s\].
 pub(crate) const LIMP_DAMPING: f64 = 2.0;
@@ -89,22 +89,23 @@ pub fn outboard_inertias(body: &Body) -> [f64; Node::COUNT] {
 
 /// Moments of inertia of a part as the world uses them \[kg m²\].
 pub(crate) fn part_inertia(body: &Body, node: Node) -> DVec3 {
-    let least = LEAST_INERTIA * body.mass_kg() * body.stature_m() * body.stature_m();
+    let least = MIN_INERTIA * body.mass_kg() * body.stature_m() * body.stature_m();
     body.link(node).inertia.max(DVec3::splat(least))
 }
 
 pub(crate) fn build(engine: &mut Engine, spec: &CharacterSpec, index: usize) -> Result<Character, SpecError> {
     let body = &spec.body;
-    if let Some(node) = sound::faulty_part(body) {
+    if let Some(node) = sanitize::faulty_part(body) {
         return Err(SpecError::NoMass(node.part().name()));
     }
-    let Some(velocity) = sound::velocity(spec.velocity).filter(|_| sound::is_place(spec.pose.hips_position)) else {
+    let Some(velocity) = sanitize::velocity(spec.velocity).filter(|_| sanitize::is_place(spec.pose.hips_position))
+    else {
         return Err(SpecError::NotFinite);
     };
     let mut spec = spec.clone();
-    spec.surface = sound::surface(spec.surface);
+    spec.surface = sanitize::surface(spec.surface);
     for rotation in &mut spec.pose.world {
-        *rotation = sound::unit(*rotation).ok_or(SpecError::NotFinite)?;
+        *rotation = sanitize::unit(*rotation).ok_or(SpecError::NotFinite)?;
     }
     let body = &spec.body;
     let positions = spec.pose.positions(body);

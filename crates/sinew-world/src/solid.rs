@@ -83,7 +83,7 @@ impl Solid {
 
     /// `None` for a hull or a mesh that is none, and for sizes that are not above 0 or beyond all bounds.
     pub(crate) fn shape(&self) -> Option<SharedShape> {
-        if !crate::sound::is_solid(self) {
+        if !crate::sanitize::is_solid(self) {
             return None;
         }
         Some(match &self.form {

@@ -5,8 +5,8 @@ use crate::character::{Character, Hold};
 use crate::engine::{Engine, tag};
 use crate::prop::Prop;
 use crate::prop_joint::PropJoint;
-use crate::watch::Watch;
-use crate::{CharacterSpec, Drive, Frame, Held, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll, sound};
+use crate::readback::Readback;
+use crate::{CharacterSpec, Drive, Frame, Held, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll, sanitize};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node};
@@ -41,13 +41,13 @@ pub struct World {
     pub(crate) broken_holds: Vec<(Held, f64)>,
     pub(crate) prop_joints: Vec<PropJoint>,
     pub(crate) frame: Frame,
-    pub(crate) watch: Watch,
+    pub(crate) readback: Readback,
 }
 
 impl World {
     /// An empty world with its floor. Settings out of their bounds are brought into them.
     pub fn new(settings: WorldSettings) -> World {
-        let settings = sound::settings(settings);
+        let settings = sanitize::settings(settings);
         World {
             settings,
             engine: Engine::new(&settings),
@@ -57,7 +57,7 @@ impl World {
             broken_holds: Vec::new(),
             prop_joints: Vec::new(),
             frame: Frame::default(),
-            watch: Watch::default(),
+            readback: Readback::default(),
         }
     }
 
@@ -80,8 +80,8 @@ impl World {
         let index = self.characters.len();
         let character = ragdoll::build(&mut self.engine, &spec, index)?;
         self.characters.push(character);
-        self.engine.passing.own.push([0; Node::COUNT]);
-        self.look_at_new();
+        self.engine.collision_filter.own.push([0; Node::COUNT]);
+        self.read_back_new();
         Ok(index)
     }
 
@@ -92,7 +92,7 @@ impl World {
     pub fn add_prop(&mut self, spec: PropSpec) -> Result<usize, SpecError> {
         let index = self.props.len();
         self.props.push(Prop::build(&mut self.engine, spec, index)?);
-        self.look_at_new();
+        self.read_back_new();
         Ok(index)
     }
 
@@ -136,7 +136,7 @@ impl World {
     pub fn set_drive(&mut self, character: usize, node: Node, drive: Drive) {
         let Some(character) = self.characters.get_mut(character) else { return };
         let outboard = character.outboard[node.index()];
-        let drive = sound::drive(drive).unwrap_or(Drive::limp(ragdoll::LIMP_DAMPING * outboard));
+        let drive = sanitize::drive(drive).unwrap_or(Drive::limp(ragdoll::LIMP_DAMPING * outboard));
         if drive != character.drives[node.index()] {
             character.drives[node.index()] = drive;
             character.hold_changed(&mut self.engine);
@@ -156,7 +156,7 @@ impl World {
     /// Holds a part to a place in the world, or lets it go with `None`.
     pub fn set_pin(&mut self, character: usize, node: Node, pin: Option<Pin>) {
         let Some(character) = self.characters.get_mut(character) else { return };
-        let pin = pin.and_then(sound::pin);
+        let pin = pin.and_then(sanitize::pin);
         if pin != character.pins[node.index()] {
             character.pins[node.index()] = pin;
             character.hold_changed(&mut self.engine);
@@ -167,7 +167,7 @@ impl World {
     /// [`World::set_forces`] frees it.
     pub fn move_part(&mut self, character: usize, node: Node, position: DVec3, rotation: DQuat) {
         let Some(character) = self.characters.get_mut(character) else { return };
-        let Some(rotation) = sound::unit(rotation).filter(|_| sound::is_place(position)) else { return };
+        let Some(rotation) = sanitize::unit(rotation).filter(|_| sanitize::is_place(position)) else { return };
         character.holds[node.index()] = Hold::Told;
         if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
             if body.body_type() != RigidBodyType::KinematicPositionBased {
@@ -194,7 +194,7 @@ impl World {
     pub fn push_part(&mut self, character: usize, node: Node, force: DVec3, point: Option<DVec3>) {
         if let Some(character) = self.characters.get_mut(character) {
             let handle = character.bodies[node.index()];
-            character.pushes[0][node.index()] += sound::force(force).unwrap_or(DVec3::ZERO);
+            character.pushes[0][node.index()] += sanitize::force(force).unwrap_or(DVec3::ZERO);
             self.push_body(handle, force, point);
         }
     }
@@ -214,9 +214,9 @@ impl World {
 
     fn push_body(&mut self, handle: RigidBodyHandle, force: DVec3, point: Option<DVec3>) {
         if let Some(body) = self.engine.bodies.get_mut(handle)
-            && let Some(force) = sound::force(force)
+            && let Some(force) = sanitize::force(force)
         {
-            let point = point.filter(|&point| sound::is_place(point)).unwrap_or_else(|| body.center_of_mass());
+            let point = point.filter(|&point| sanitize::is_place(point)).unwrap_or_else(|| body.center_of_mass());
             body.add_force_at_point(force, point, true);
         }
     }
@@ -249,7 +249,7 @@ impl World {
     /// Factor on gravity for one part of a character.
     pub fn set_part_gravity(&mut self, character: usize, node: Node, scale: f64) {
         let Some(character) = self.characters.get_mut(character) else { return };
-        let Some(scale) = sound::gravity_scale(scale) else { return };
+        let Some(scale) = sanitize::gravity_scale(scale) else { return };
         character.gravity_scales[node.index()] = scale;
         if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
             body.set_gravity_scale(scale, true);
@@ -307,7 +307,7 @@ impl World {
         let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.characters.get(character)) else {
             return;
         };
-        let Some(spin) = sound::spin(spin) else { return };
+        let Some(spin) = sanitize::spin(spin) else { return };
         for node in Node::ALL {
             if let Some(body) = self.engine.bodies.get_mut(one.bodies[node.index()]) {
                 let arm = frame.part(node).centre - frame.centre_of_mass;
@@ -315,7 +315,7 @@ impl World {
                 body.set_angvel(body.angvel() + spin, true);
             }
         }
-        self.look_at_character(character);
+        self.read_back_character(character);
     }
 
     /// Gives every part of a character its velocity and angular velocity \[m/s, rad/s\]; by [`Node::index`]. What is not finite
@@ -323,23 +323,23 @@ impl World {
     pub fn set_velocities(&mut self, character: usize, velocities: &[(DVec3, DVec3); Node::COUNT]) {
         let Some(one) = self.characters.get(character) else { return };
         for (handle, (velocity, spin)) in one.bodies.into_iter().zip(velocities) {
-            let (Some(velocity), Some(spin)) = (sound::velocity(*velocity), sound::spin(*spin)) else { continue };
+            let (Some(velocity), Some(spin)) = (sanitize::velocity(*velocity), sanitize::spin(*spin)) else { continue };
             if let Some(body) = self.engine.bodies.get_mut(handle) {
                 body.set_linvel(velocity, true);
                 body.set_angvel(spin, true);
             }
         }
-        self.look_at_character(character);
+        self.read_back_character(character);
     }
 
     /// Puts a prop somewhere else, or gives it another velocity.
     pub fn place_prop(&mut self, prop: usize, position: Option<DVec3>, velocity: Option<DVec3>) {
         let Some(prop) = self.props.get_mut(prop) else { return };
         if let Some(body) = self.engine.bodies.get_mut(prop.handle) {
-            if let Some(position) = position.filter(|&place| sound::is_place(place)) {
+            if let Some(position) = position.filter(|&place| sanitize::is_place(place)) {
                 body.set_translation(position, true);
             }
-            if let Some(velocity) = velocity.and_then(sound::velocity) {
+            if let Some(velocity) = velocity.and_then(sanitize::velocity) {
                 body.set_linvel(velocity, true);
             }
         }
@@ -349,7 +349,7 @@ impl World {
     pub fn accelerate_prop(&mut self, prop: usize, acceleration: DVec3) {
         if let Some(prop) = self.props.get_mut(prop)
             && prop.spec.motion == Motion::Moving
-            && let Some(acceleration) = sound::force(acceleration)
+            && let Some(acceleration) = sanitize::force(acceleration)
         {
             prop.acceleration = acceleration;
         }
@@ -358,7 +358,7 @@ impl World {
     /// Factor on gravity for a prop.
     pub fn set_prop_gravity(&mut self, prop: usize, scale: f64) {
         if let Some(prop) = self.props.get(prop)
-            && let Some(scale) = sound::gravity_scale(scale)
+            && let Some(scale) = sanitize::gravity_scale(scale)
             && let Some(body) = self.engine.bodies.get_mut(prop.handle)
         {
             body.set_gravity_scale(scale, true);

@@ -318,7 +318,7 @@ fn a_hand_passes_through_a_prop_that_it_still_touches() {
     let ball = Solid::new(Form::Ball { radius_m: 0.05 });
     let place = hand + DVec3::X * 0.03;
     world.add_prop(PropSpec::new(ball, Motion::Dynamic { mass_kg: 0.3 }, place)).unwrap();
-    world.set_passing_prop(0, Node::LeftHand, 0, true);
+    world.set_passes_prop(0, Node::LeftHand, 0, true);
     steps(&mut world, 0.2);
     // To the last bit: nothing acts on it.
     assert_eq!(world.frame().props[0].position, place);

@@ -8,12 +8,13 @@ use common::{adult, spec, standing};
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_world::{
-    CharacterFrame, Effort, Entity, Form, Held, Motion, Pin, PropSpec, Solid, Spent, World, WorldSettings,
+    CharacterFrame, Entity, ExternalForce, ExternalForces, Form, Held, Motion, Pin, PropSpec, Solid, World,
+    WorldSettings,
 };
 
-fn sum(character: &CharacterFrame, of: impl Fn(&Spent) -> Effort) -> (DVec3, f64) {
-    let force = character.spent.iter().map(|spent| of(spent).force).sum();
-    (force, character.spent.iter().map(|spent| of(spent).power_w).sum())
+fn sum(character: &CharacterFrame, of: impl Fn(&ExternalForces) -> ExternalForce) -> (DVec3, f64) {
+    let force = character.external.iter().map(|spent| of(spent).force).sum();
+    (force, character.external.iter().map(|spent| of(spent).power_w).sum())
 }
 
 fn floating(gravity_m_s2: f64) -> World {
@@ -60,7 +61,7 @@ fn over_a_plank(gravity_m_s2: f64, ahead_m: f64) -> (World, usize) {
     let plank = Solid::new(Form::Box { size_m: DVec3::new(2.0, 0.1, 2.0) });
     let plank = PropSpec::new(plank, Motion::Dynamic { mass_kg: 60.0 }, DVec3::Y * -0.5);
     let plank = world.add_prop(plank).unwrap();
-    world.set_footing(0, Some(plank));
+    world.set_reaction_body(0, Some(plank));
     for (node, position) in Node::ALL.into_iter().zip(standing(&adult()).positions(&adult())) {
         let position = position + DVec3::Z * ahead_m;
         let pin = Pin { position, stiffness: 160.0, damping: 25.0, gravity_share: 1.0, ..Pin::LOOSE };
@@ -121,7 +122,7 @@ fn a_part_that_physics_does_not_move_bears_what_hangs_from_it() {
     let mut world = floating(9.81);
     world.set_forces(0, Node::Hips, false);
     settle(&mut world);
-    let held = world.frame().characters[0].spent[Node::Hips.index()].held;
+    let held = world.frame().characters[0].external[Node::Hips.index()].held;
     // The joints' impulses are those of the last sub-step.
     assert!((held.force - DVec3::Y * WEIGHT_N).length() < 0.05 * WEIGHT_N, "{held:?}");
     assert!(held.power_w.abs() < 1.0, "{held:?}");
@@ -150,7 +151,7 @@ fn a_hold_on_a_wall_bears_who_hangs_from_it_and_a_hold_on_a_ball_is_no_help_from
     let (mut bears_n, steps) = (0.0, 2400);
     for _ in 0..steps {
         world.step();
-        let spent = &world.frame().characters[0].spent;
+        let spent = &world.frame().characters[0].external;
         bears_n += spent[Node::LeftHand.index()].held.force.y / f64::from(steps);
         assert_eq!(spent[Node::RightHand.index()].held.force, DVec3::ZERO);
     }
@@ -175,7 +176,7 @@ fn every_step_of_a_soft_hold_tells_the_force_that_it_bears() {
         // What moves the centre of mass of a body that hangs by its hand alone.
         let acceleration = (character.centre_velocity - before) * 240.0;
         let needs = (acceleration + DVec3::Y * 9.81) * 80.0;
-        let force = character.spent[Node::LeftHand.index()].held.force;
+        let force = character.external[Node::LeftHand.index()].held.force;
         // The last sub-step alone says half as much again. A tenth: the solver's sweeps leave that of a spring's law.
         assert!((force - needs).length() < 0.1 * WEIGHT_N, "step {step}: {force}, moved by {needs}");
         before = character.centre_velocity;

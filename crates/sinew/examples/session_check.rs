@@ -80,7 +80,7 @@ fn agree(one: &Value, other: &Value) -> Result<usize, Failure> {
 fn in_time(take: &Take, server: &Value, round_trip_ms: f64, clients: &[Value]) -> Result<(), Failure> {
     let allowed = round_trip_ms / 1e3 * f64::from(take.physics_hz) + 2.0;
     let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
-    let mut obeyed = list(&server["obeyed"]);
+    let mut applied = list(&server["applied"]);
     let (mut checked, mut late) = (0, Vec::new());
     for client in clients {
         let own: Vec<String> =
@@ -89,8 +89,8 @@ fn in_time(take: &Take, server: &Value, round_trip_ms: f64, clients: &[Value]) -
             // One that was sent when the client was about to be cut off may be missing.
             let is_it =
                 |order: &Value| order["what"] == sent["what"] && order["step"].as_u64() >= sent["seen_step"].as_u64();
-            let Some(place) = obeyed.iter().position(is_it) else { continue };
-            let order = obeyed.remove(place);
+            let Some(place) = applied.iter().position(is_it) else { continue };
+            let order = applied.remove(place);
             let step = order["step"].as_u64().unwrap_or_default();
             let Some(command) = take.commands.iter().position(|stamped| stamped.step == step) else { continue };
             let seen = sent["seen_step"].as_u64().unwrap_or_default();
@@ -101,7 +101,7 @@ fn in_time(take: &Take, server: &Value, round_trip_ms: f64, clients: &[Value]) -
                 let steps = (reached - seen) as f64 - since;
                 checked += 1;
                 println!(
-                    "{} sent {since:.1} steps after frame {seen}, arrived at {}, obeyed at {step}, reached {other} at {reached}: \
+                    "{} sent {since:.1} steps after frame {seen}, arrived at {}, applied at {step}, reached {other} at {reached}: \
                      {steps:.1} steps, of {allowed:.1} allowed",
                     sent["what"], order["arrived_step"],
                 );

@@ -1,7 +1,9 @@
 //! What one does on one machine reaches another who holds the same rope.
 #![cfg(feature = "session")]
 
-use sinew::session::{Client, Playbill, Relay, Role, ServeJob, Server, ServerSettings, Token, Weather, reached, serve};
+use sinew::session::{
+    Client, LinkConditions, Relay, Role, SceneManifest, ServeJob, Server, ServerSettings, Token, reached, serve,
+};
 use sinew::stage::Scene;
 use std::time::Duration;
 
@@ -34,10 +36,10 @@ for_secs = 0.2
 fn a_pull_reaches_the_other_within_two_steps_of_its_arrival() {
     let scene = Scene::from_text(SCENE).expect("the scene is sound");
     let settings = ServerSettings { bind: ([127, 0, 0, 1], 0).into(), ..ServerSettings::default() };
-    let (server, desk) =
-        Server::open(&settings, Playbill::of(&scene).expect("it is small")).expect("loopback is there");
-    let weather = Weather { delay: Duration::from_millis(40), ..Weather::default() };
-    let relay = Relay::start(([127, 0, 0, 1], 0).into(), server.address(), weather).expect("loopback is there");
+    let (server, queue) =
+        Server::open(&settings, SceneManifest::of(&scene).expect("it is small")).expect("loopback is there");
+    let conditions = LinkConditions { delay: Duration::from_millis(40), ..LinkConditions::default() };
+    let relay = Relay::start(([127, 0, 0, 1], 0).into(), server.address(), conditions).expect("loopback is there");
     let token = Token { port: relay.address().port(), ..server.token(Role::Actor).clone() };
     let actors = std::thread::spawn(move || {
         let join = |name: &str| Client::join(&token, &[name.to_owned()]).expect("it is let in");
@@ -50,27 +52,27 @@ fn a_pull_reaches_the_other_within_two_steps_of_its_arrival() {
         }
         // Until the stage ends: what it shows goes on arriving.
         while red.next_frame(Duration::from_secs(2)).is_some() {}
-        (red.tally(), blue.tally())
+        (red.stats(), blue.stats())
     });
     let job = ServeJob { for_secs: Some(6.0), keeps_take: true, ..ServeJob::default() };
-    let served = serve(scene, &job, &server, desk, |_| ()).expect("it runs");
+    let served = serve(scene, &job, &server, queue, |_| ()).expect("it runs");
     drop(server);
     let (red, blue) = actors.join().expect("the actors end well");
     let take = served.take.expect("it was asked for");
-    assert_eq!(served.report.obeyed.len(), 3, "{red:?}");
-    for (place, obeyed) in served.report.obeyed.iter().enumerate() {
-        assert_eq!(take.commands[place].step, obeyed.step, "the take has it where it was obeyed");
+    assert_eq!(served.report.applied.len(), 3, "{red:?}");
+    for (place, applied) in served.report.applied.iter().enumerate() {
+        assert_eq!(take.commands[place].step, applied.step, "the take has it where it was applied");
         let reached = reached(&take, place, "blue", None).expect("the take is sound").expect("the rope is taut");
-        assert!(reached - obeyed.arrived_step <= 2, "{obeyed:?}, reached blue at {reached}");
+        assert!(reached - applied.arrived_step <= 2, "{applied:?}, reached blue at {reached}");
     }
-    for tally in [red, blue] {
-        assert_eq!((tally.frames_that_differ, tally.frames_malformed), (0, 0));
+    for stats in [red, blue] {
+        assert_eq!((stats.frames_that_differ, stats.frames_malformed), (0, 0));
         // Two ways of 40 ms, and no less.
-        assert!(tally.round_trip_ms >= 80.0, "{}", tally.round_trip_ms);
-        let common: Vec<&u64> = tally.hashes.keys().collect();
+        assert!(stats.round_trip_ms >= 80.0, "{}", stats.round_trip_ms);
+        let common: Vec<&u64> = stats.hashes.keys().collect();
         assert!(!common.is_empty());
         for step in common {
-            assert_eq!(tally.hashes[step], served.report.hashes[step], "step {step}");
+            assert_eq!(stats.hashes[step], served.report.hashes[step], "step {step}");
         }
     }
 }

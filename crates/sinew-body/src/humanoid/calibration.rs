@@ -14,10 +14,10 @@ use sinew_motion::{Clip, Humanoid, Part, Transform};
 const SAMPLES: usize = 200;
 
 /// Mean sine of the bend below which a hinge axis is not trusted: a limb bent by less than about 8 degrees.
-const LEAST_BEND: f64 = 0.14;
+const MIN_BEND: f64 = 0.14;
 
 /// How far hinge axes may scatter and still be averaged: length of their mean over their mean length.
-const LEAST_AGREEMENT: f64 = 0.7;
+const MIN_AGREEMENT: f64 = 0.7;
 
 /// World poses of a skeleton to measure on.
 pub(super) struct Samples {
@@ -193,7 +193,7 @@ fn hinge(
     };
     let mean = samples.mean(normal)?;
     let length = samples.mean(|world| Some(DVec3::X * normal(world)?.length()))?.x;
-    if length < LEAST_BEND || mean.length() < LEAST_AGREEMENT * length {
+    if length < MIN_BEND || mean.length() < MIN_AGREEMENT * length {
         return None;
     }
     Some(mean.normalize() * if bends_forward { -1.0 } else { 1.0 })

@@ -35,10 +35,10 @@ pub(super) struct Feedback {
 }
 
 /// Most that feedback turns a joint \[rad\]: beyond it the body falls anyway, and limbs should not wind themselves up.
-const MOST_FEEDBACK: f64 = 1.2;
+const MAX_FEEDBACK: f64 = 1.2;
 
 /// Most that the hips are turned towards their heading at once \[rad\]: a foot that stands holds no more.
-const MOST_TURN: f64 = 0.35;
+const MAX_TURN: f64 = 0.35;
 
 impl Steering {
     /// Changes a wanted pose that has been written. Feedback comes first, then parts measured in the world, then the hips.
@@ -69,7 +69,7 @@ impl WorldHips {
         let turn = self.heading.map_or(0.0, |heading| {
             // The short way round.
             let left = heading - facing;
-            libm::atan2(libm::sin(left), libm::cos(left)).clamp(-MOST_TURN, MOST_TURN)
+            libm::atan2(libm::sin(left), libm::cos(left)).clamp(-MAX_TURN, MAX_TURN)
         });
         let world_from_hips = exp(DVec3::Y * (facing + turn)) * exp(DVec3::X * self.lean);
         // A turn of the hips against the thigh that carries: as if the thigh stood still in the world.
@@ -91,7 +91,7 @@ impl Feedback {
         let turn = self.rad_per_m * arm.dot(along) + self.rad_per_m_s * character.centre_velocity.dot(along);
         if turn.is_finite() {
             let joint = target.joint_mut(self.joint);
-            joint.rotation = (exp(axis * turn.clamp(-MOST_FEEDBACK, MOST_FEEDBACK)) * joint.rotation).normalize();
+            joint.rotation = (exp(axis * turn.clamp(-MAX_FEEDBACK, MAX_FEEDBACK)) * joint.rotation).normalize();
         }
     }
 }

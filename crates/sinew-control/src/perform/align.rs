@@ -1,6 +1,6 @@
 //! From a performer's space to a character's place and size.
 
-use super::{Build, PerformerSample};
+use super::{BodyProportions, PerformerSample};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_world::hips_over_soles_m;
@@ -33,9 +33,9 @@ const SCALES: std::ops::RangeInclusive<f64> = 0.05..=12.0;
 
 impl Alignment {
     /// From the first sample of a performance. Its lower sole comes to stand on the floor of the character's place.
-    pub fn of(first: &PerformerSample, build: Option<Build>, stand: &Stand) -> Alignment {
+    pub fn of(first: &PerformerSample, build: Option<BodyProportions>, stand: &Stand) -> Alignment {
         let body = &stand.body;
-        let own = Build::of(body);
+        let own = BodyProportions::of(body);
         let pose = first.pose();
         let hips_height = pose.hips_position.y;
         let (scale, performer_hips_to_legs) = match build {

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
 
 /// How fast a blend may move any part on top of the motion \[m/s\].
-const MOST_M_S: f64 = 0.8;
+const MAX_M_S: f64 = 0.8;
 
 /// How far a turn of a joint moves what hangs from it, about \[m/rad\].
 const REACH_M: f64 = 0.5;
@@ -40,7 +40,7 @@ impl Blend {
             let above = node.parent().map_or(hips.length(), |parent| ways[parent.index()]);
             ways[node.index()] = above + REACH_M * turns[node.index()].length();
         }
-        let needed = ways.into_iter().fold(0.0, f64::max) / MOST_M_S * STEEPEST;
+        let needed = ways.into_iter().fold(0.0, f64::max) / MAX_M_S * STEEPEST;
         Blend { hips, turns, gone_secs: 0.0, lasts_secs: needed.max(least_secs) }
     }
 

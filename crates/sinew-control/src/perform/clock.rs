@@ -16,7 +16,7 @@ const IN_TIME: f64 = 0.97;
 const STEP_SECS: f64 = 1e-3;
 
 /// Samples late in a row that mean that the way has become longer for good.
-const MOST_LATE: u32 = 6;
+const MAX_LATE: u32 = 6;
 
 /// Intervals whose median is the sender's.
 const INTERVALS: usize = 32;
@@ -78,7 +78,7 @@ impl Clock {
         let step = if way > self.jitter_secs { IN_TIME } else { IN_TIME - 1.0 };
         self.jitter_secs += STEP_SECS * step;
         self.late_in_a_row = if is_late { self.late_in_a_row + 1 } else { 0 };
-        if self.late_in_a_row >= MOST_LATE {
+        if self.late_in_a_row >= MAX_LATE {
             self.jitter_secs = self.jitter_secs.max(way);
             if way > self.most_jitter_secs {
                 // Longer than any delay that we allow: what was shortest before is no measure any more.

@@ -4,7 +4,7 @@
 //! a live session replays to the same bits. [`LiveSource`] does everything else, step by step and without a clock of its own:
 //!
 //! ```text
-//! sample ─▶ hygiene ─▶ alignment ─▶ buffer ─▶ playhead ─▶ blend ─▶ One-Euro filter ─▶ Target
+//! sample ─▶ outlier_filter ─▶ alignment ─▶ buffer ─▶ playhead ─▶ blend ─▶ One-Euro filter ─▶ Target
 //!           counters   performer    by time    clock of    hold,
 //!                      to body                 the sender  relax, return
 //! ```
@@ -17,16 +17,16 @@ mod blend;
 mod buffer;
 mod clock;
 mod counters;
-mod hygiene;
 mod numbers;
 mod one_euro;
+mod outlier_filter;
 mod sample;
 mod settings;
 mod source;
 mod tpose;
 
 pub use counters::PerformCounters;
-pub use sample::{Build, PerformerSample, SampleStatus};
+pub use sample::{BodyProportions, PerformerSample, SampleStatus};
 pub use settings::LiveSettings;
 pub use source::{LiveSource, Presence};
 pub use tpose::{TPose, pose_of, turns_of};

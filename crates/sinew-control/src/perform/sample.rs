@@ -37,7 +37,7 @@ pub struct PerformerSample {
     pub turns_e6: [[i32; 4]; Part::COUNT],
     /// Lengths of the performer, now and then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub build: Option<Build>,
+    pub build: Option<BodyProportions>,
 }
 
 /// Whether a sample can be used.
@@ -56,7 +56,7 @@ pub enum SampleStatus {
 /// The lengths of a performer that place a character's hips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Build {
+pub struct BodyProportions {
     /// From the hips to the middle between the hip joints, in the hips' frame \[µm\].
     pub hips_to_legs_um: [i32; 3],
     /// Upper and lower leg together \[µm\].
@@ -81,19 +81,19 @@ impl SampleStatus {
     }
 }
 
-impl Build {
+impl BodyProportions {
     /// From lengths in metres.
-    pub fn new(hips_to_legs_m: DVec3, leg_m: f64) -> Build {
-        Build { hips_to_legs_um: hips_to_legs_m.to_array().map(millionths), leg_um: millionths(leg_m) }
+    pub fn new(hips_to_legs_m: DVec3, leg_m: f64) -> BodyProportions {
+        BodyProportions { hips_to_legs_um: hips_to_legs_m.to_array().map(millionths), leg_um: millionths(leg_m) }
     }
 
     /// A body's own.
-    pub fn of(body: &Body) -> Build {
+    pub fn of(body: &Body) -> BodyProportions {
         let offset = |node: Node| body.link(node).offset;
         let hips_to_legs = (offset(Node::LeftUpperLeg) + offset(Node::RightUpperLeg)) / 2.0;
         let bones = [Node::LeftLowerLeg, Node::LeftFoot, Node::RightLowerLeg, Node::RightFoot];
         let leg: f64 = bones.into_iter().map(|node| offset(node).length()).sum();
-        Build::new(hips_to_legs, leg / 2.0)
+        BodyProportions::new(hips_to_legs, leg / 2.0)
     }
 
     /// From the hips to the middle between the hip joints, in the hips' frame \[m\].
@@ -125,7 +125,7 @@ impl PerformerSample {
     /// What a performer of this body who has this pose would send, lengths included.
     pub fn of_pose(time_secs: f64, pose: &Pose, body: &Body) -> PerformerSample {
         let sample = PerformerSample::new(time_secs, pose.hips_position, &turns_of(pose));
-        PerformerSample { build: Some(Build::of(body)), ..sample }
+        PerformerSample { build: Some(BodyProportions::of(body)), ..sample }
     }
 
     /// Where the hips are in the performer's space \[m\].

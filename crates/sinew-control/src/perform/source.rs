@@ -4,9 +4,9 @@ use super::align::{Alignment, Stand};
 use super::blend::Blend;
 use super::buffer::{Buffer, Entry};
 use super::clock::Clock;
-use super::hygiene::{Around, Hygiene, Verdict};
 use super::one_euro::OneEuro;
-use super::{Build, LiveSettings, PerformCounters, PerformerSample};
+use super::outlier_filter::{Around, OutlierFilter, Verdict};
+use super::{BodyProportions, LiveSettings, PerformCounters, PerformerSample};
 use crate::Target;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp, log};
@@ -53,9 +53,9 @@ pub enum Presence {
 pub struct LiveSource {
     stand: Stand,
     settings: LiveSettings,
-    hygiene: Hygiene,
+    outlier_filter: OutlierFilter,
     clock: Clock,
-    build: Option<Build>,
+    build: Option<BodyProportions>,
     alignment: Option<Alignment>,
     /// Samples that were used with this alignment.
     aligned: u32,
@@ -86,7 +86,7 @@ pub struct LiveSource {
 const SILENT_SECS: f64 = 0.25;
 
 /// How much faster or slower than time the playhead runs to get to where it should be \[1\].
-const MOST_WARP: f64 = 0.1;
+const MAX_WARP: f64 = 0.1;
 
 /// How fast it gets there \[1/s\].
 const WARP_RATE: f64 = 2.0;
@@ -101,13 +101,13 @@ const RETURN_SECS: f64 = 0.4;
 const BRIDGE_SECS: f64 = 0.1;
 
 /// How far ahead a pose is foretold \[s\]: a motion frame at 30 Hz.
-const MOST_AHEAD_SECS: f64 = 0.034;
+const MAX_AHEAD_SECS: f64 = 0.034;
 
 /// Samples after which an alignment is kept for good.
 const SURE: u32 = 10;
 
 /// Passed samples looked at in one step.
-const MOST_PASSED: usize = 64;
+const MAX_PASSED: usize = 64;
 
 impl LiveSource {
     /// A character of this body whose performances begin at `place` (a point of the floor \[m\]) and face `facing_rad` (about +Y
@@ -115,7 +115,7 @@ impl LiveSource {
     pub fn new(body: &Body, place: DVec3, facing_rad: f64, first: &Pose, settings: LiveSettings) -> LiveSource {
         LiveSource {
             stand: Stand { body: body.clone(), place, facing_rad },
-            hygiene: Hygiene::new(),
+            outlier_filter: OutlierFilter::new(),
             clock: Clock::new(settings.most_jitter_secs),
             build: None,
             alignment: None,
@@ -148,7 +148,7 @@ impl LiveSource {
 
     /// Takes a sample in that arrives at a time of the stage \[s\].
     pub fn receive(&mut self, sample: &PerformerSample, now_secs: f64) {
-        if !self.hygiene.is_sound(sample) || !sample.time_secs.is_finite() {
+        if !self.outlier_filter.is_sound(sample) || !sample.time_secs.is_finite() {
             return;
         }
         if sample.build.is_some() && self.build.is_none() {
@@ -163,7 +163,7 @@ impl LiveSource {
             pose: &pose,
             scale: alignment.scale(),
         };
-        let verdict = self.hygiene.judge(sample, &around);
+        let verdict = self.outlier_filter.judge(sample, &around);
         if verdict == Verdict::Begin {
             self.buffer.clear();
             self.clock.restart();
@@ -259,16 +259,16 @@ impl LiveSource {
             self.is_ahead = true;
             self.playhead = Some(if due < next { due.max(newest).max(playhead.min(next)) } else { next });
         } else {
-            let warp = (off * WARP_RATE).clamp(-MOST_WARP, MOST_WARP);
+            let warp = (off * WARP_RATE).clamp(-MAX_WARP, MAX_WARP);
             self.playhead = Some(next + warp * step_secs);
         }
         let Some(playhead) = self.playhead else { return };
-        for _ in 0..MOST_PASSED {
+        for _ in 0..MAX_PASSED {
             let Some(gap) = self.buffer.pass(playhead) else { break };
-            if !self.hygiene.counters().lost_is_estimate {
+            if !self.outlier_filter.counters().lost_is_estimate {
                 continue;
             }
-            self.hygiene.estimate_lost(gap, self.clock.interval_secs());
+            self.outlier_filter.estimate_lost(gap, self.clock.interval_secs());
         }
     }
 
@@ -302,7 +302,7 @@ impl LiveSource {
     /// What will be wanted at a time of the stage soon after the end of the step \[s\], as far as can be told now: for trackers that
     /// are told where a motion frame ends.
     pub fn pose_at(&self, time_secs: f64) -> Pose {
-        let ahead = (time_secs - self.until_secs).clamp(0.0, MOST_AHEAD_SECS);
+        let ahead = (time_secs - self.until_secs).clamp(0.0, MAX_AHEAD_SECS);
         let Some(playhead) = self.playhead.filter(|_| self.presence == Presence::Performing && ahead > 0.0) else {
             return self.shown;
         };
@@ -323,7 +323,7 @@ impl LiveSource {
 
     /// What came of the samples so far.
     pub fn counters(&self) -> PerformCounters {
-        self.hygiene.counters()
+        self.outlier_filter.counters()
     }
 
     /// How far behind the shortest way from the sender the pose is shown \[s\]: what evens out jitter and loss.

@@ -1,7 +1,7 @@
 //! Shows the wanted pose, whatever is in the way.
 
 use super::clock::Clock;
-use super::glide::Glide;
+use super::pose_interpolator::PoseInterpolator;
 use sinew_body::humanoid::{Node, Pose};
 use sinew_world::World;
 
@@ -13,14 +13,18 @@ use sinew_world::World;
 #[derive(Clone, Debug)]
 pub struct KinematicTracker {
     clock: Clock,
-    glide: Glide,
+    interpolator: PoseInterpolator,
     wanted: Pose,
 }
 
 impl KinematicTracker {
     /// Starts at rest in `first`; wanted poses come every `time_step_secs`.
     pub fn new(time_step_secs: f64, first: &Pose) -> KinematicTracker {
-        KinematicTracker { clock: Clock::new(time_step_secs), glide: Glide::rest(first), wanted: *first }
+        KinematicTracker {
+            clock: Clock::new(time_step_secs),
+            interpolator: PoseInterpolator::rest(first),
+            wanted: *first,
+        }
     }
 
     /// Whether the next step of physics begins a motion frame.
@@ -39,9 +43,9 @@ impl KinematicTracker {
     pub fn physics_step(&mut self, world: &mut World, character: usize) {
         if self.clock.is_due() {
             self.clock.begin_frame();
-            self.glide.next(&self.wanted);
+            self.interpolator.next(&self.wanted);
         }
-        let pose = self.glide.at(self.clock.advance(world.settings().step_secs()));
+        let pose = self.interpolator.at(self.clock.advance(world.settings().step_secs()));
         let Some(body) = world.body(character) else { return };
         let positions = pose.positions(body);
         for node in Node::ALL {

@@ -1,14 +1,14 @@
 //! How a body follows its target.
 
 mod clock;
-mod felt;
+mod contact_forces;
 mod gains;
-mod glide;
 mod hold;
 mod instant;
 mod kd;
 mod kinematic;
 mod pd;
+mod pose_interpolator;
 mod response;
 mod tasks;
 

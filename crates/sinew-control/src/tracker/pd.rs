@@ -46,7 +46,7 @@ impl PdTracker {
                     rotation: wanted.rotation,
                     velocity: wanted.velocity,
                     stiffness: self.gains.stiffness[at] * factor,
-                    damping: damping.max(LEAST_DAMPING * self.gains.damping[at]),
+                    damping: damping.max(MIN_DAMPING * self.gains.damping[at]),
                     torque: wanted.torque,
                 },
             );
@@ -55,4 +55,4 @@ impl PdTracker {
 }
 
 /// Share of a joint's damping that is left when its gain is nothing: flesh \[1\].
-const LEAST_DAMPING: f64 = 0.05;
+const MIN_DAMPING: f64 = 0.05;

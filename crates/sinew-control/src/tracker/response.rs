@@ -6,9 +6,9 @@
 //! first gives way by its own inertia and then yields in the style of the response.
 
 use super::clock::Clock;
-use super::felt::Felt;
-use super::glide::Glide;
+use super::contact_forces::ContactForces;
 use super::hold::{Grip, GroundMotion, Hold};
+use super::pose_interpolator::PoseInterpolator;
 use super::tasks::Tasks;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
@@ -27,10 +27,10 @@ use sinew_world::World;
 pub struct ResponseTracker {
     response: Response,
     clock: Clock,
-    glide: Glide,
+    interpolator: PoseInterpolator,
     hold: Hold,
     wanted: Pose,
-    felt: Felt,
+    felt: ContactForces,
     forces: Vec<PointForce>,
     tasks: Tasks,
     platform: Option<Platform>,
@@ -60,9 +60,9 @@ impl ResponseTracker {
             hold: Hold::new(Grip::RESPONSE, &body, first),
             response: Response::new(body, basis, settings, first),
             clock: Clock::new(settings.time_step_secs),
-            glide: Glide::rest(first),
+            interpolator: PoseInterpolator::rest(first),
             wanted: *first,
-            felt: Felt::default(),
+            felt: ContactForces::default(),
             forces: Vec::with_capacity(Node::COUNT),
             tasks: Tasks::none(),
             platform: None,
@@ -73,11 +73,11 @@ impl ResponseTracker {
     /// the body was moved by something else. Tasks and platform stay.
     pub fn restart(&mut self, before: &Pose, now: &Pose) {
         self.response.restart(before, now);
-        self.glide = Glide::rest(before);
-        self.glide.next(now);
+        self.interpolator = PoseInterpolator::rest(before);
+        self.interpolator.next(now);
         self.hold.restart(self.response.body(), now);
         self.clock = Clock::new(self.clock.time_step_secs());
-        self.felt = Felt::default();
+        self.felt = ContactForces::default();
         self.wanted = *now;
     }
 
@@ -105,7 +105,7 @@ impl ResponseTracker {
     /// Keeps what is upright in a part now upright, such as a cup in a hand: as well as the joints allow while the motion goes
     /// on. `None` lets it go with the motion again.
     pub fn keep_upright(&mut self, node: Option<Node>) {
-        self.tasks.keep_upright(node, self.glide.end());
+        self.tasks.keep_upright(node, self.interpolator.end());
     }
 
     /// The part that is kept upright, and which of its axes points up.
@@ -128,7 +128,7 @@ impl ResponseTracker {
             self.clock.begin_frame();
             self.begin_frame(&ground, world);
         }
-        let next = self.glide.at(self.clock.advance(step_secs));
+        let next = self.interpolator.at(self.clock.advance(step_secs));
         self.hold.carry_to(&next, &ground, world, character);
     }
 
@@ -140,11 +140,11 @@ impl ResponseTracker {
             acceleration = (ground.velocity - platform.frame_velocity) / frame_secs;
             platform.frame_velocity = ground.velocity;
         }
-        let tasks = self.tasks.of(self.glide.end(), self.response.body(), ground.shift, world);
+        let tasks = self.tasks.of(self.interpolator.end(), self.response.body(), ground.shift, world);
         let mut pose = self.response.step_with_tasks(&self.wanted, &self.forces, acceleration, tasks);
         // The world knows better where its platform is.
         pose.hips_position -= self.response.deviation().ground_shift;
-        self.glide.next(&pose);
+        self.interpolator.next(&pose);
     }
 
     fn ground(&mut self, world: &World, step_secs: f64) -> GroundMotion {
@@ -162,7 +162,7 @@ impl ResponseTracker {
 
     /// The pose that the body is held to at the end of this motion frame, on ground at rest.
     pub fn pose(&self) -> &Pose {
-        self.glide.end()
+        self.interpolator.end()
     }
 
     /// The response, to see what it does.

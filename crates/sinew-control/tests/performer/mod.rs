@@ -310,7 +310,7 @@ impl Hit {
             hit.feet_m = hit.feet_m.max(off(Node::LeftFoot)).max(off(Node::RightFoot));
             hit.sunk_m = hit.sunk_m.max(b.part(Node::Hips).position.y - a.part(Node::Hips).position.y);
             let (mut force_n, mut power_w) = (0.0, 0.0);
-            for (hit, not) in a.spent.iter().zip(&b.spent) {
+            for (hit, not) in a.external.iter().zip(&b.external) {
                 force_n += (hit.pin.force - not.pin.force).length();
                 power_w += hit.pin.power_w - not.pin.power_w;
             }

@@ -1,7 +1,7 @@
 //! The server's certificate, which signs itself, and the client that believes in that one alone.
 
 use super::SessionError;
-use super::limits::{IDLE, MOST_FRAMES_UNDER_WAY};
+use super::limits::{IDLE, MAX_FRAMES_UNDER_WAY};
 use quinn::crypto::rustls::{QuicClientConfig, QuicServerConfig};
 use quinn::{IdleTimeout, TransportConfig, VarInt};
 use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, ServerCertVerifier};
@@ -68,7 +68,7 @@ pub(super) fn client_side(fingerprint: [u8; 32]) -> Result<quinn::ClientConfig, 
     let mut transport = transport()?;
     transport
         .max_concurrent_bidi_streams(VarInt::from_u32(0))
-        .max_concurrent_uni_streams(VarInt::from_u32(MOST_FRAMES_UNDER_WAY))
+        .max_concurrent_uni_streams(VarInt::from_u32(MAX_FRAMES_UNDER_WAY))
         .receive_window(VarInt::from_u32(8 << 20))
         .datagram_send_buffer_size(64 << 10)
         // Without a buffer of its own it may not send any.

@@ -1,9 +1,9 @@
 //! A client: joins, performs and commands, and sees what happens.
 
-use super::limits::{MOST_ACTORS_OF_ONE, MOST_NAME, QUIET};
+use super::client_stats::{ClientStats, Standing};
+use super::limits::{MAX_ACTORS_OF_ONE, MAX_NAME, QUIET};
 use super::link::{Link, Seen, Up, is_lost};
 use super::message::{ClientSays, Welcome};
-use super::tally::{Standing, Tally};
 use super::upward::Upward;
 use super::{Refusal, SessionError, Token};
 use sinew_control::Command;
@@ -27,13 +27,13 @@ pub struct Client {
 }
 
 /// Actors of one client, as a byte counts them.
-const MOST_ACTORS: u8 = MOST_ACTORS_OF_ONE as u8;
+const MAX_ACTORS: u8 = MAX_ACTORS_OF_ONE as u8;
 
 /// Orders that wait to be sent.
-const MOST_UP: usize = 256;
+const MAX_UP: usize = 256;
 
 /// Frames that wait to be looked at.
-const MOST_FRAMES: usize = 256;
+const MAX_FRAMES: usize = 256;
 
 /// Tries to come back, and the time between two.
 const REJOIN_TRIES: u32 = 40;
@@ -55,9 +55,9 @@ impl Client {
         let link = runtime.block_on(make(token, actors))?;
         let scene = scene_of(&link.scene)?;
         let welcome = link.welcome.clone();
-        let (up, wanted) = mpsc::channel(MOST_UP);
-        let (frame, frames) = sync_channel(MOST_FRAMES);
-        let seen = Arc::new(Seen { tally: Mutex::default(), frames: frame });
+        let (up, wanted) = mpsc::channel(MAX_UP);
+        let (frame, frames) = sync_channel(MAX_FRAMES);
+        let seen = Arc::new(Seen { stats: Mutex::default(), frames: frame });
         let standing = Arc::new(Mutex::new(Standing::Connected));
         let stay = stay(token.clone(), actors.to_vec(), link, Arc::clone(&seen), wanted, Arc::clone(&standing));
         runtime.spawn(stay);
@@ -79,23 +79,23 @@ impl Client {
         self.frames.recv_timeout(within).ok()
     }
 
-    /// Sends a command, to be obeyed in the next step. False when too many wait already.
+    /// Sends a command, to be applied in the next step. False when too many wait already.
     pub fn command(&self, command: Command) -> bool {
         let what = serde_json::to_value(&command.action).ok();
         let what = what.and_then(|action| Some(action.get("do")?.as_str()?.to_owned()));
         let sent = self.up.try_send(Up::Say(ClientSays::Command(command))).is_ok();
         if sent {
-            self.seen.tally().note_sent(what.unwrap_or_default());
+            self.seen.stats().note_sent(what.unwrap_or_default());
         }
         sent
     }
 
     /// Presses a key of the scene. False when too many orders wait already.
     pub fn press(&self, key: &str) -> bool {
-        let key: String = key.chars().take(MOST_NAME / 4).collect();
+        let key: String = key.chars().take(MAX_NAME / 4).collect();
         let sent = self.up.try_send(Up::Say(ClientSays::Press(key.clone()))).is_ok();
         if sent {
-            self.seen.tally().note_sent(key);
+            self.seen.stats().note_sent(key);
         }
         sent
     }
@@ -103,17 +103,17 @@ impl Client {
     /// Sends what one of its actors performs, the first being 0: at once or not at all. A sample of an actor that it does not play
     /// is not sent.
     pub fn perform(&self, actor: usize, sample: PerformerSample) {
-        let Ok(actor @ 0..MOST_ACTORS) = u8::try_from(actor) else { return };
+        let Ok(actor @ 0..MAX_ACTORS) = u8::try_from(actor) else { return };
         let upward = Upward::Performed { actor, sample: Box::new(sample) };
         let is_its = usize::from(actor) < self.welcome.actors.len();
         if is_its && self.up.try_send(Up::Throw(upward.to_bytes())).is_err() {
-            self.seen.tally().samples_not_sent += 1;
+            self.seen.stats().samples_not_sent += 1;
         }
     }
 
     /// What it has received.
-    pub fn tally(&self) -> Tally {
-        self.seen.tally().clone()
+    pub fn stats(&self) -> ClientStats {
+        self.seen.stats().clone()
     }
 
     /// How it stands.
@@ -185,7 +185,7 @@ async fn stay(
         };
         // What was wanted meanwhile is over.
         while wanted.try_recv().is_ok() {}
-        seen.tally().rejoined += 1;
+        seen.stats().rejoined += 1;
         set(Standing::Connected);
     }
 }

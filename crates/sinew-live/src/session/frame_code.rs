@@ -8,7 +8,7 @@
 //! a contact: two entities (kind u8, index u16, node u8), point 3 f64, impulse 3 f64, begins u8
 //! ```
 
-use super::limits::{MOST_CHARACTERS, MOST_CONTACTS, MOST_CORNERS, MOST_PROPS};
+use super::limits::{MAX_CHARACTERS, MAX_CONTACTS, MAX_CORNERS, MAX_PROPS};
 use super::wire::{Malformed, Reader};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
@@ -30,9 +30,9 @@ const CONTACT: usize = 2 * 4 + 6 * 8 + 1;
 /// # Ok::<(), sinew_live::session::Malformed>(())
 /// ```
 pub fn encode_frame(frame: &Frame, out: &mut Vec<u8>) {
-    let characters = &frame.characters[..frame.characters.len().min(MOST_CHARACTERS)];
-    let props = &frame.props[..frame.props.len().min(MOST_PROPS)];
-    let contacts = &frame.contacts[..frame.contacts.len().min(MOST_CONTACTS)];
+    let characters = &frame.characters[..frame.characters.len().min(MAX_CHARACTERS)];
+    let props = &frame.props[..frame.props.len().min(MAX_PROPS)];
+    let contacts = &frame.contacts[..frame.contacts.len().min(MAX_CONTACTS)];
     out.reserve(38 + characters.len() * (CHARACTER + 200) + props.len() * BODY + contacts.len() * CONTACT);
     out.extend(frame.step.to_le_bytes());
     out.extend(frame.time_secs.to_le_bytes());
@@ -47,7 +47,7 @@ pub fn encode_frame(frame: &Frame, out: &mut Vec<u8>) {
         for it in [character.centre_of_mass, character.centre_velocity, character.facing] {
             vector(it, out);
         }
-        let corners = &character.support[..character.support.len().min(MOST_CORNERS)];
+        let corners = &character.support[..character.support.len().min(MAX_CORNERS)];
         out.push(u8::from(character.was_reset));
         out.push(corners.len() as u8);
         for corner in corners {
@@ -73,9 +73,9 @@ pub fn encode_frame(frame: &Frame, out: &mut Vec<u8>) {
 pub fn decode_frame(bytes: &[u8]) -> Result<(Frame, u64), Malformed> {
     let mut from = Reader(bytes);
     let (step, time_secs) = (from.u64()?, from.f64()?);
-    let characters = from.count(MOST_CHARACTERS)?;
-    let props = from.count(MOST_PROPS)?;
-    let contacts = from.count(MOST_CONTACTS)?;
+    let characters = from.count(MAX_CHARACTERS)?;
+    let props = from.count(MAX_PROPS)?;
+    let contacts = from.count(MAX_CONTACTS)?;
     let hash = from.u64()?;
     if characters * CHARACTER + props * BODY + contacts * CONTACT > from.0.len() {
         return Err(Malformed("it counts more than it holds"));

@@ -9,46 +9,46 @@ pub const PROTOCOL: u32 = 1;
 pub const DEFAULT_PORT: u16 = 47110;
 
 /// Longest control message from a client \[bytes\]: a command with its texts.
-pub const MOST_CLIENT_MESSAGE: usize = 64 << 10;
+pub const MAX_CLIENT_MESSAGE: usize = 64 << 10;
 
 /// Longest control message from a server \[bytes\].
-pub const MOST_SERVER_MESSAGE: usize = 256 << 10;
+pub const MAX_SERVER_MESSAGE: usize = 256 << 10;
 
 /// Longest message before a client is known to have the secret \[bytes\].
-pub const MOST_HELLO: usize = 4 << 10;
+pub const MAX_HELLO: usize = 4 << 10;
 
 /// Largest scene with all its files, as a take holds them \[bytes\].
-pub const MOST_SCENE: usize = 64 << 20;
+pub const MAX_SCENE: usize = 64 << 20;
 
 /// Longest encoded frame \[bytes\]: some 8000 bodies with their contacts.
-pub const MOST_FRAME: usize = 2 << 20;
+pub const MAX_FRAME: usize = 2 << 20;
 
 /// Characters in an encoded frame.
-pub const MOST_CHARACTERS: usize = 1 << 10;
+pub const MAX_CHARACTERS: usize = 1 << 10;
 
 /// Props in an encoded frame.
-pub const MOST_PROPS: usize = 1 << 14;
+pub const MAX_PROPS: usize = 1 << 14;
 
 /// Contacts in an encoded frame; of more only the first are sent.
-pub const MOST_CONTACTS: usize = 1 << 12;
+pub const MAX_CONTACTS: usize = 1 << 12;
 
 /// Corners of one support polygon in an encoded frame.
-pub const MOST_CORNERS: usize = 255;
+pub const MAX_CORNERS: usize = 255;
 
 /// Actors that one client may play.
-pub const MOST_ACTORS_OF_ONE: usize = 8;
+pub const MAX_ACTORS_OF_ONE: usize = 8;
 
 /// Length of an actor's or a key's name \[bytes\].
-pub const MOST_NAME: usize = 200;
+pub const MAX_NAME: usize = 200;
 
 /// Commands of all clients that wait for a step; more are dropped and counted.
-pub const MOST_ORDERS: usize = 1 << 10;
+pub const MAX_ORDERS: usize = 1 << 10;
 
 /// Commands of all clients that one step obeys; the rest waits for the next.
-pub const MOST_ORDERS_OF_STEP: usize = 256;
+pub const MAX_ORDERS_OF_STEP: usize = 256;
 
 /// Frames under way to one client.
-pub const MOST_FRAMES_UNDER_WAY: u32 = 128;
+pub const MAX_FRAMES_UNDER_WAY: u32 = 128;
 
 /// A frame older than this is given up.
 pub const STALE: Duration = Duration::from_millis(1000);
@@ -72,10 +72,10 @@ pub const QUIET: Duration = Duration::from_millis(1200);
 pub const CONTROL_PER_SEC: f64 = 60.0;
 
 /// Datagrams a second that a client may send in the long run; more are dropped.
-pub const DATAGRAMS_PER_SEC: f64 = 250.0 * MOST_ACTORS_OF_ONE as f64;
+pub const DATAGRAMS_PER_SEC: f64 = 250.0 * MAX_ACTORS_OF_ONE as f64;
 
 /// Connections that have not shown the secret yet, over all addresses.
-pub const MOST_STRANGERS: usize = 64;
+pub const MAX_STRANGERS: usize = 64;
 
 /// Connections that have not shown the secret yet, of one address.
-pub const MOST_STRANGERS_OF_ONE: usize = 16;
+pub const MAX_STRANGERS_OF_ONE: usize = 16;

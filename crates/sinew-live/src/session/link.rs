@@ -2,10 +2,10 @@
 
 use super::certificate::{client_side, is_impostor, server_name};
 use super::channel::{hear, read_bytes, say};
+use super::client_stats::ClientStats;
 use super::frame_code::decode_frame;
 use super::limits::*;
 use super::message::{ClientSays, Hello, ServerSays, Welcome};
-use super::tally::Tally;
 use super::upward::Upward;
 use super::{PROTOCOL, SessionError, Token};
 use base64::Engine;
@@ -30,13 +30,13 @@ pub(super) enum Up {
 
 /// What the tasks of a client share with the application.
 pub(super) struct Seen {
-    pub tally: Mutex<Tally>,
+    pub stats: Mutex<ClientStats>,
     pub frames: SyncSender<Arc<Frame>>,
 }
 
 impl Seen {
-    pub(super) fn tally(&self) -> MutexGuard<'_, Tally> {
-        self.tally.lock().unwrap_or_else(PoisonError::into_inner)
+    pub(super) fn stats(&self) -> MutexGuard<'_, ClientStats> {
+        self.stats.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -124,13 +124,13 @@ async fn greet(
     let (mut to, mut from) = connection.open_bi().await.map_err(ended)?;
     let secret = URL_SAFE_NO_PAD.encode(token.secret);
     say(&mut to, &Hello { protocol: PROTOCOL, secret, actors: actors.to_vec() }).await?;
-    let answer = hear(&mut from, MOST_SERVER_MESSAGE).await?;
+    let answer = hear(&mut from, MAX_SERVER_MESSAGE).await?;
     match ServerSays::read(&answer.unwrap_or_default()).map_err(SessionError::Malformed)? {
         ServerSays::Refused(refusal) => Err(SessionError::Refused(refusal)),
         ServerSays::Welcome(welcome) => {
             let length = usize::try_from(welcome.scene_bytes).unwrap_or(usize::MAX);
-            if length > MOST_SCENE {
-                let problem = format!("the server's scene has {length} bytes, of {MOST_SCENE} allowed");
+            if length > MAX_SCENE {
+                let problem = format!("the server's scene has {length} bytes, of {MAX_SCENE} allowed");
                 return Err(SessionError::Malformed(problem));
             }
             let scene = read_bytes(&mut from, length).await?;
@@ -173,15 +173,15 @@ async fn receive_frames(connection: &Connection, seen: &Arc<Seen>) -> SessionErr
         // No more at a time than streams are allowed.
         tokio::spawn(async move {
             // One that is given up on the way is none.
-            let Ok(Ok(bytes)) = timeout(2 * STALE, stream.read_to_end(MOST_FRAME)).await else { return };
+            let Ok(Ok(bytes)) = timeout(2 * STALE, stream.read_to_end(MAX_FRAME)).await else { return };
             match decode_frame(&bytes) {
                 Ok((frame, said)) => {
-                    if seen.tally().note(&frame, said, bytes.len()) {
+                    if seen.stats().note(&frame, said, bytes.len()) {
                         // An application that does not look misses some.
                         let _ = seen.frames.try_send(Arc::new(frame));
                     }
                 }
-                Err(_) => seen.tally().frames_malformed += 1,
+                Err(_) => seen.stats().frames_malformed += 1,
             }
         });
     }
@@ -189,13 +189,13 @@ async fn receive_frames(connection: &Connection, seen: &Arc<Seen>) -> SessionErr
 
 async fn receive_words(mut from: RecvStream, seen: &Arc<Seen>) -> SessionError {
     loop {
-        let bytes = match hear(&mut from, MOST_SERVER_MESSAGE).await {
+        let bytes = match hear(&mut from, MAX_SERVER_MESSAGE).await {
             Ok(Some(bytes)) => bytes,
             Ok(None) => return SessionError::Ended("the server has said goodbye".to_owned()),
             Err(error) => return error,
         };
         match ServerSays::read(&bytes) {
-            Ok(ServerSays::NotPassed(problem)) => seen.tally().note_not_passed(super::message::short(&problem)),
+            Ok(ServerSays::NotPassed(problem)) => seen.stats().note_not_passed(super::message::short(&problem)),
             Ok(_) => {}
             Err(problem) => return SessionError::Malformed(problem),
         }
@@ -215,16 +215,16 @@ async fn send(
         tokio::select! {
             _ = alive.tick() => {
                 let seen_step = {
-                    let mut tally = seen.tally();
-                    tally.round_trip_ms = connection.rtt().as_secs_f64() * 1e3;
-                    tally.last_step.unwrap_or(0)
+                    let mut stats = seen.stats();
+                    stats.round_trip_ms = connection.rtt().as_secs_f64() * 1e3;
+                    stats.last_step.unwrap_or(0)
                 };
                 let _ = connection.send_datagram(Upward::Alive { seen_step }.to_bytes().into());
             }
             next = up.recv() => match next {
                 Some(Up::Throw(bytes)) => {
                     if connection.send_datagram(bytes.into()).is_err() {
-                        seen.tally().samples_not_sent += 1;
+                        seen.stats().samples_not_sent += 1;
                     }
                 }
                 Some(Up::Say(words)) => {

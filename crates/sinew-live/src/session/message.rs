@@ -1,6 +1,6 @@
 //! What the two sides say to each other on the control stream, as JSON behind its length (u32, little end first).
 
-use super::limits::{MOST_ACTORS_OF_ONE, MOST_NAME};
+use super::limits::{MAX_ACTORS_OF_ONE, MAX_NAME};
 use super::{Refusal, Role};
 use serde::{Deserialize, Serialize};
 use sinew_control::Command;
@@ -27,7 +27,7 @@ pub(super) struct AnyHello {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ClientSays {
-    /// A command, to be obeyed in the next step.
+    /// A command, to be applied in the next step.
     Command(Command),
     /// A key of the scene is pressed.
     Press(String),
@@ -78,8 +78,8 @@ impl Hello {
             return Err(Refusal::Version { server: super::PROTOCOL, client: any.protocol });
         }
         let hello: Hello = serde_json::from_slice(bytes).map_err(|error| greeting(short(&error.to_string())))?;
-        if hello.actors.len() > MOST_ACTORS_OF_ONE || hello.actors.iter().any(|actor| actor.len() > MOST_NAME) {
-            return Err(greeting(format!("at most {MOST_ACTORS_OF_ONE} actors with short names are expected")));
+        if hello.actors.len() > MAX_ACTORS_OF_ONE || hello.actors.iter().any(|actor| actor.len() > MAX_NAME) {
+            return Err(greeting(format!("at most {MAX_ACTORS_OF_ONE} actors with short names are expected")));
         }
         Ok(hello)
     }
@@ -93,7 +93,7 @@ impl ClientSays {
     pub fn read(bytes: &[u8]) -> Result<ClientSays, String> {
         let says: ClientSays = serde_json::from_slice(bytes).map_err(|error| short(&error.to_string()))?;
         match &says {
-            ClientSays::Press(key) if key.len() > MOST_NAME => Err("a key has a shorter name".to_owned()),
+            ClientSays::Press(key) if key.len() > MAX_NAME => Err("a key has a shorter name".to_owned()),
             _ => Ok(says),
         }
     }

@@ -7,10 +7,10 @@
 //!  client ──commands (control stream, in order)──▶ ┌────────┐  orders, bounded   ┌───────┐
 //!  client ──performance (datagrams)─────────────▶ │ Server │ ─────────────────▶ │ stage │──▶ take
 //!  client ◀──frames (a stream each, newest first)── └────────┘ ◀───newest frame── └───────┘
-//!                                                    tokio                 Desk    own thread
+//!                                                    tokio                 StageQueue    own thread
 //! ```
 //!
-//! A command is obeyed, and recorded in the take, in the step that begins after it arrived. A frame holds the bits of every
+//! A command is applied, and recorded in the take, in the step that begins after it arrived. A frame holds the bits of every
 //! body's place and velocity, so that every client computes [`Frame::hash`](sinew_world::Frame::hash) itself; hashes of one step
 //! are equal everywhere. Late joiners get the scene with all its files, and with the next frame all there is to see.
 //!
@@ -20,36 +20,36 @@
 mod certificate;
 mod channel;
 mod client;
-mod desk;
+mod client_connection;
+mod client_stats;
 mod error;
 mod frame_code;
-mod guest;
 pub mod limits;
 mod link;
 mod message;
 mod pace;
 mod permit;
 mod relay;
+mod role_assignments;
 mod sample_code;
-mod seats;
 mod server;
-mod tally;
-mod theatre;
+mod session_runner;
+mod stage_queue;
 mod token;
 mod upward;
 mod wire;
 
 pub use client::Client;
-pub use desk::{Desk, Order, Placed, ServerCounts};
+pub use client_stats::{ClientStats, SentOrder, Standing, note_hash};
 pub use error::{Refusal, SessionError};
 pub use frame_code::{decode_frame, encode_frame};
 pub use limits::PROTOCOL;
 pub use message::{ClientSays, Hello, ServerSays, Welcome};
 pub use permit::permit;
-pub use relay::{Relay, Weather};
-pub use server::{Playbill, Server, ServerSettings};
-pub use tally::{SentOrder, Standing, Tally, note_hash};
-pub use theatre::{Obeyed, Pacer, Theatre};
+pub use relay::{LinkConditions, Relay};
+pub use server::{SceneManifest, Server, ServerSettings};
+pub use session_runner::{AppliedCommand, Pacer, SessionRunner};
+pub use stage_queue::{Order, Placed, ServerCounts, StageQueue};
 pub use token::{Role, Token};
 pub use upward::Upward;
 pub use wire::Malformed;

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 /// What the way does to packets, in each direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Weather {
+pub struct LinkConditions {
     /// Time that every packet takes.
     pub delay: Duration,
     /// More time, evenly spread from none to this.
@@ -23,13 +23,13 @@ pub struct Weather {
 }
 
 /// Packets under way; more are lost.
-const MOST_UNDER_WAY: usize = 20_000;
+const MAX_UNDER_WAY: usize = 20_000;
 
 /// Clients that are told apart; those of more are not let through.
-const MOST_CLIENTS: usize = 256;
+const MAX_CLIENTS: usize = 256;
 
 /// Largest packet \[bytes\].
-const MOST_PACKET: usize = 2048;
+const MAX_PACKET: usize = 2048;
 
 /// How often a thread looks whether it is still wanted.
 const LOOK: Duration = Duration::from_millis(100);
@@ -43,7 +43,7 @@ pub struct Relay {
 
 /// What the threads share.
 struct Way {
-    weather: Weather,
+    conditions: LinkConditions,
     sky: Mutex<Sky>,
     came: Condvar,
     ended: AtomicBool,
@@ -73,13 +73,13 @@ impl Relay {
     ///
     /// # Errors
     /// An address that cannot be bound.
-    pub fn start(at: SocketAddr, to: SocketAddr, weather: Weather) -> io::Result<Relay> {
+    pub fn start(at: SocketAddr, to: SocketAddr, conditions: LinkConditions) -> io::Result<Relay> {
         let front = Arc::new(UdpSocket::bind(at)?);
         front.set_read_timeout(Some(LOOK))?;
         let address = front.local_addr()?;
-        let sky = Sky { chance: weather.seed, number: 0, under_way: BinaryHeap::new() };
+        let sky = Sky { chance: conditions.seed, number: 0, under_way: BinaryHeap::new() };
         let way = Arc::new(Way {
-            weather,
+            conditions,
             sky: Mutex::new(sky),
             came: Condvar::new(),
             ended: AtomicBool::new(false),
@@ -131,11 +131,11 @@ impl Way {
     /// Packets from clients; each client gets a socket of its own towards the server, and a thread for what comes back.
     fn read_front(self: &Arc<Way>, front: &Arc<UdpSocket>, to: SocketAddr) {
         let mut backs: BTreeMap<SocketAddr, Arc<UdpSocket>> = BTreeMap::new();
-        let mut bytes = [0; MOST_PACKET];
+        let mut bytes = [0; MAX_PACKET];
         while !self.has_ended() {
             let Ok((length, from)) = front.recv_from(&mut bytes) else { continue };
             if !backs.contains_key(&from) {
-                if backs.len() >= MOST_CLIENTS {
+                if backs.len() >= MAX_CLIENTS {
                     continue;
                 }
                 let any: SocketAddr = if to.is_ipv4() { ([0, 0, 0, 0], 0).into() } else { ([0u16; 8], 0).into() };
@@ -156,7 +156,7 @@ impl Way {
     }
 
     fn read_back(&self, back: &UdpSocket, front: &Arc<UdpSocket>, to: SocketAddr) {
-        let mut bytes = [0; MOST_PACKET];
+        let mut bytes = [0; MAX_PACKET];
         while !self.has_ended() {
             if let Ok(length) = back.recv(&mut bytes) {
                 self.send_off(front, to, &bytes[..length]);
@@ -167,14 +167,14 @@ impl Way {
     fn send_off(&self, by: &Arc<UdpSocket>, to: SocketAddr, bytes: &[u8]) {
         let now = Instant::now();
         let mut sky = self.sky();
-        let is_lost = sky.chance() < self.weather.loss;
-        let more = self.weather.jitter.mul_f64(sky.chance());
-        if is_lost || self.cut.load(Ordering::Relaxed) || sky.under_way.len() >= MOST_UNDER_WAY {
+        let is_lost = sky.chance() < self.conditions.loss;
+        let more = self.conditions.jitter.mul_f64(sky.chance());
+        if is_lost || self.cut.load(Ordering::Relaxed) || sky.under_way.len() >= MAX_UNDER_WAY {
             self.lost.fetch_add(1, Ordering::Relaxed);
             return;
         }
         sky.number += 1;
-        let due = now + self.weather.delay + more;
+        let due = now + self.conditions.delay + more;
         let packet = Packet { due, number: sky.number, by: Arc::clone(by), to, bytes: bytes.to_vec() };
         sky.under_way.push(Reverse(packet));
         self.came.notify_all();

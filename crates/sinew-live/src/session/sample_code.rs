@@ -1,7 +1,7 @@
 //! A performer's sample as bytes, small enough for one packet; every number with all its bits.
 
 use super::wire::{Malformed, Reader};
-use sinew_control::perform::{Build, PerformerSample, SampleStatus};
+use sinew_control::perform::{BodyProportions, PerformerSample, SampleStatus};
 use sinew_motion::Part;
 
 const HAS_NUMBER: u8 = 1;
@@ -45,7 +45,7 @@ pub(super) fn decode_sample(from: &mut Reader) -> Result<PerformerSample, Malfor
     }
     let build = if kind & HAS_BUILD != 0 {
         let (hips_to_legs_um, [leg_um]) = (read(from)?, read(from)?);
-        Some(Build { hips_to_legs_um, leg_um })
+        Some(BodyProportions { hips_to_legs_um, leg_um })
     } else {
         None
     };

@@ -1,10 +1,10 @@
 //! The server: one socket, one certificate, one stage.
 
 use super::certificate::server_side;
-use super::desk::{Desk, Placed, ServerCounts, Shared, count};
-use super::guest::{self, House};
-use super::limits::{DEFAULT_PORT, HELLO_WITHIN, MOST_ORDERS, MOST_STRANGERS, MOST_STRANGERS_OF_ONE};
-use super::seats::Seats;
+use super::client_connection::{self, ServerState};
+use super::limits::{DEFAULT_PORT, HELLO_WITHIN, MAX_ORDERS, MAX_STRANGERS, MAX_STRANGERS_OF_ONE};
+use super::role_assignments::RoleAssignments;
+use super::stage_queue::{Placed, ServerCounts, Shared, StageQueue, count};
 use super::{Role, SessionError, Token};
 use ring::rand::{SecureRandom, SystemRandom};
 use sinew_control::Command;
@@ -38,7 +38,7 @@ impl Default for ServerSettings {
 
 /// What a server tells those who join, and needs to know to let them.
 #[derive(Clone, Debug, Default)]
-pub struct Playbill {
+pub struct SceneManifest {
     /// The scene with all its files: a take without commands.
     pub scene: Arc<[u8]>,
     /// Its characters.
@@ -64,11 +64,11 @@ pub struct Server {
 }
 
 impl Server {
-    /// Opens a session. The [`Desk`] is for the thread that runs the stage.
+    /// Opens a session. The [`StageQueue`] is for the thread that runs the stage.
     ///
     /// # Errors
     /// An address that cannot be bound, or that no token can name.
-    pub fn open(settings: &ServerSettings, bill: Playbill) -> Result<(Server, Desk), SessionError> {
+    pub fn open(settings: &ServerSettings, manifest: SceneManifest) -> Result<(Server, StageQueue), SessionError> {
         let machine = |error: std::io::Error| SessionError::Machine(format!("{}: {error}", settings.bind));
         let (config, fingerprint) = server_side()?;
         let runtime = tokio::runtime::Builder::new_multi_thread()
@@ -92,20 +92,20 @@ impl Server {
         let token = |role, secret| Token { role, host: host.clone(), port: address.port(), fingerprint, secret };
         let (actor, operator) = (token(Role::Actor, secrets.0), token(Role::Operator, secrets.1));
         let shared = Arc::new(Shared::default());
-        let (order, orders) = std::sync::mpsc::sync_channel::<Placed>(MOST_ORDERS);
+        let (order, orders) = std::sync::mpsc::sync_channel::<Placed>(MAX_ORDERS);
         let (frames, frames_out) = watch::channel(Arc::default());
-        let house = Arc::new(House {
-            seats: Mutex::new(Seats::new(&bill.actors)),
-            bill,
+        let state = Arc::new(ServerState {
+            roles: Mutex::new(RoleAssignments::new(&manifest.actors)),
+            manifest,
             secrets: [(Role::Actor, secrets.0), (Role::Operator, secrets.1)],
             order,
             frames: frames_out,
             shared: Arc::clone(&shared),
             most_clients: settings.most_clients,
         });
-        runtime.spawn(accept(endpoint.clone(), house));
+        runtime.spawn(accept(endpoint.clone(), state));
         let server = Server { address, actor, operator, shared: Arc::clone(&shared), endpoint, runtime: Some(runtime) };
-        Ok((server, Desk { orders, frames, shared, buffers: Vec::new() }))
+        Ok((server, StageQueue { orders, frames, shared, buffers: Vec::new() }))
     }
 
     /// The address that it is bound to.
@@ -143,7 +143,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        self.endpoint.close(guest::CLOSED.into(), b"the session is over");
+        self.endpoint.close(client_connection::CLOSED.into(), b"the session is over");
         if let Some(runtime) = self.runtime.take() {
             // Everybody is told, and nobody is waited for long.
             let told = async { tokio::time::timeout(super::limits::SIGN_OF_LIFE, self.endpoint.wait_idle()).await };
@@ -154,9 +154,9 @@ impl Drop for Server {
 }
 
 /// Lets connections in: strangers are few at a time, over all and from one address.
-async fn accept(endpoint: quinn::Endpoint, house: Arc<House>) {
+async fn accept(endpoint: quinn::Endpoint, state: Arc<ServerState>) {
     let strangers: Arc<Mutex<BTreeMap<IpAddr, usize>>> = Arc::default();
-    let mut guest = 0;
+    let mut client = 0;
     while let Some(incoming) = endpoint.accept().await {
         let from = incoming.remote_address().ip();
         if !incoming.remote_address_validated() && incoming.may_retry() && are_many(&strangers) {
@@ -168,26 +168,26 @@ async fn accept(endpoint: quinn::Endpoint, house: Arc<House>) {
             let mut known = strangers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             let all: usize = known.values().sum();
             let here = known.entry(from).or_default();
-            if *here >= MOST_STRANGERS_OF_ONE || all >= MOST_STRANGERS {
+            if *here >= MAX_STRANGERS_OF_ONE || all >= MAX_STRANGERS {
                 None
             } else {
                 *here += 1;
-                Some(Stranger { from, strangers: Arc::clone(&strangers) })
+                Some(PendingConnection { from, strangers: Arc::clone(&strangers) })
             }
         };
         let Some(pass) = pass else {
-            count(&house.shared.counts.strangers_refused);
+            count(&state.shared.counts.strangers_refused);
             incoming.refuse();
             continue;
         };
-        guest += 1;
-        let house = Arc::clone(&house);
+        client += 1;
+        let state = Arc::clone(&state);
         tokio::spawn(async move {
             let connection = match tokio::time::timeout(HELLO_WITHIN, async { incoming.accept()?.await }).await {
                 Ok(Ok(connection)) => connection,
-                _ => return count(&house.shared.counts.strangers_refused),
+                _ => return count(&state.shared.counts.strangers_refused),
             };
-            guest::receive(house, guest, connection, pass).await;
+            client_connection::receive(state, client, connection, pass).await;
         });
     }
 }
@@ -195,16 +195,16 @@ async fn accept(endpoint: quinn::Endpoint, house: Arc<House>) {
 /// Whether so many strangers are here that each has to show that it is where it says.
 fn are_many(strangers: &Mutex<BTreeMap<IpAddr, usize>>) -> bool {
     let known = strangers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    known.values().sum::<usize>() >= MOST_STRANGERS_OF_ONE / 2
+    known.values().sum::<usize>() >= MAX_STRANGERS_OF_ONE / 2
 }
 
 /// A connection that has not shown the secret yet. It is counted until it is dropped.
-pub(super) struct Stranger {
+pub(super) struct PendingConnection {
     from: IpAddr,
     strangers: Arc<Mutex<BTreeMap<IpAddr, usize>>>,
 }
 
-impl Drop for Stranger {
+impl Drop for PendingConnection {
     fn drop(&mut self) {
         let mut known = self.strangers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(here) = known.get_mut(&self.from) {

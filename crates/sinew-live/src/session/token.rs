@@ -42,7 +42,7 @@ pub struct Token {
 }
 
 /// Longest token that is read \[bytes\].
-const MOST_BYTES: usize = 512;
+const MAX_BYTES: usize = 512;
 
 /// The first word: tells a token from other text, and its version.
 const MARK: &str = "sinew1";
@@ -100,7 +100,7 @@ impl FromStr for Token {
     fn from_str(text: &str) -> Result<Token, SessionError> {
         let wrong = |problem: &str| SessionError::Token(problem.to_owned());
         let text = text.trim();
-        if text.len() > MOST_BYTES {
+        if text.len() > MAX_BYTES {
             return Err(wrong("it is too long"));
         }
         let pieces: Vec<&str> = text.split('/').collect();

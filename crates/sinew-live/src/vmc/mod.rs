@@ -11,7 +11,7 @@ mod osc;
 mod reader;
 
 pub use frame::VmcFrame;
-pub use osc::{MOST_DATAGRAM_BYTES, Malformed};
+pub use osc::{MAX_DATAGRAM_BYTES, Malformed};
 pub use reader::VmcReader;
 
 /// The port that receivers usually have.

@@ -3,16 +3,16 @@
 use rosc::{OscMessage, OscPacket, OscType};
 
 /// Largest datagram that is looked at \[bytes\]. A whole performer has about 2000.
-pub const MOST_DATAGRAM_BYTES: usize = 16 << 10;
+pub const MAX_DATAGRAM_BYTES: usize = 16 << 10;
 
 /// Deepest nesting of bundles; senders use one.
 const DEEPEST: usize = 4;
 
 /// Most messages in a datagram: a performer's bones, fingers and blend shapes are below 300.
-const MOST_MESSAGES: usize = 1000;
+const MAX_MESSAGES: usize = 1000;
 
 /// Longest address \[bytes\].
-const MOST_ADDRESS: usize = 256;
+const MAX_ADDRESS: usize = 256;
 
 const BUNDLE: &[u8] = b"#bundle\0";
 
@@ -20,7 +20,7 @@ const BUNDLE: &[u8] = b"#bundle\0";
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Malformed {
     /// It is too large.
-    #[error("a datagram of more than {MOST_DATAGRAM_BYTES} bytes; send a performer's bones in smaller bundles")]
+    #[error("a datagram of more than {MAX_DATAGRAM_BYTES} bytes; send a performer's bones in smaller bundles")]
     Large,
     /// Bundles in bundles in bundles.
     #[error("bundles nested more than {DEEPEST} deep; send one bundle of messages")]
@@ -35,13 +35,13 @@ pub enum Malformed {
 
 /// Hands every message of a datagram to `each`, in order. Messages before a broken one have been handed out by then.
 pub(super) fn read(bytes: &[u8], each: &mut dyn FnMut(&OscMessage)) -> Result<(), Malformed> {
-    if bytes.len() > MOST_DATAGRAM_BYTES {
+    if bytes.len() > MAX_DATAGRAM_BYTES {
         return Err(Malformed::Large);
     }
-    let mut left = MOST_MESSAGES;
+    let mut left = MAX_MESSAGES;
     // All or nothing: half a bundle would be half a pose.
     element(bytes, 0, &mut left, &mut |_| ())?;
-    let mut left = MOST_MESSAGES;
+    let mut left = MAX_MESSAGES;
     element(bytes, 0, &mut left, each)
 }
 
@@ -69,7 +69,7 @@ fn element(bytes: &[u8], depth: usize, left: &mut usize, each: &mut dyn FnMut(&O
 }
 
 fn message(bytes: &[u8], each: &mut dyn FnMut(&OscMessage)) -> Result<(), Malformed> {
-    let address = bytes.iter().take(MOST_ADDRESS).position(|&byte| byte == 0).ok_or(Malformed::Message)?;
+    let address = bytes.iter().take(MAX_ADDRESS).position(|&byte| byte == 0).ok_or(Malformed::Message)?;
     if !bytes.starts_with(b"/") {
         return Err(Malformed::Message);
     }

@@ -5,7 +5,7 @@ use super::osc::{self, Malformed, number};
 use super::{BONE, OK, ROOT, SEQ, TIME};
 use glam::{DQuat, DVec3};
 use rosc::{OscMessage, OscType};
-use sinew_control::perform::{Build, PerformerSample, SampleStatus};
+use sinew_control::perform::{BodyProportions, PerformerSample, SampleStatus};
 use sinew_motion::Part;
 
 /// Puts the messages of one sender together.
@@ -41,7 +41,7 @@ pub struct VmcReader {
     is_closed: bool,
     frames_without_time: u32,
     is_seen: bool,
-    built: Option<Build>,
+    built: Option<BodyProportions>,
     frames: u64,
 }
 
@@ -167,13 +167,13 @@ impl VmcReader {
     }
 
     /// Lengths, from where the bones are in their parents; some senders tell no places.
-    fn build(&self) -> Option<Build> {
+    fn build(&self) -> Option<BodyProportions> {
         let place = |part: Part| self.bones[part as usize].0;
         let legs = (place(Part::LeftUpperLeg) + place(Part::RightUpperLeg)) / 2.0;
         let bones = [Part::LeftLowerLeg, Part::LeftFoot, Part::RightLowerLeg, Part::RightFoot];
         let each = bones.map(|part| place(part).length());
         let is_sound = legs.is_finite() && each.iter().all(|length| (0.01..10.0).contains(length));
-        is_sound.then(|| Build::new(legs, each.iter().sum::<f64>() / 2.0))
+        is_sound.then(|| BodyProportions::new(legs, each.iter().sum::<f64>() / 2.0))
     }
 }
 

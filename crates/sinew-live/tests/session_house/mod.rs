@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "not every test needs all of it")]
 
 use sinew_live::session::{
-    Client, Pacer, Playbill, Role, Server, ServerCounts, ServerSettings, SessionError, Theatre, Token,
+    Client, Pacer, Role, SceneManifest, Server, ServerCounts, ServerSettings, SessionError, SessionRunner, Token,
 };
 use sinew_stage::{Scene, Stage, Take};
 use std::collections::BTreeMap;
@@ -49,7 +49,7 @@ velocity_m_s = [0, 2, 0]
 "#;
 
 /// A session with its stage on a thread of its own.
-pub struct House {
+pub struct ServerState {
     pub server: Server,
     ended: Arc<AtomicBool>,
     stage: Option<JoinHandle<Done>>,
@@ -59,32 +59,32 @@ pub struct House {
 pub struct Done {
     pub take: Take,
     pub hashes: BTreeMap<u64, String>,
-    pub obeyed: Vec<sinew_live::session::Obeyed>,
+    pub applied: Vec<sinew_live::session::AppliedCommand>,
 }
 
-impl House {
-    pub fn open() -> House {
+impl ServerState {
+    pub fn open() -> ServerState {
         let scene = Scene::from_text(SCENE).unwrap();
         let settings = ServerSettings { bind: "127.0.0.1:0".parse().unwrap(), ..ServerSettings::default() };
-        let (server, desk) = Server::open(&settings, Playbill::of(&scene).unwrap()).unwrap();
+        let (server, queue) = Server::open(&settings, SceneManifest::of(&scene).unwrap()).unwrap();
         let ended = Arc::new(AtomicBool::new(false));
         let until = Arc::clone(&ended);
         let mut take = Take::of(&scene);
         let stage = std::thread::spawn(move || {
             let mut stage = Stage::new(scene, None).unwrap();
-            let mut theatre = Theatre::new(desk, &stage);
+            let mut session_runner = SessionRunner::new(queue, &stage);
             let mut pacer = Pacer::new(0, stage.world().settings().step_secs());
             while !until.load(Ordering::Relaxed) {
                 pacer.wait(stage.frame().step);
-                theatre.before_step(&mut stage);
+                session_runner.before_step(&mut stage);
                 stage.step();
-                theatre.after_step(&stage);
+                session_runner.after_step(&stage);
             }
             take.commands = stage.record().to_vec();
             (take.steps, take.hash) = (stage.frame().step, stage.hash());
-            Done { take, hashes: theatre.hashes().clone(), obeyed: theatre.obeyed().to_vec() }
+            Done { take, hashes: session_runner.hashes().clone(), applied: session_runner.applied().to_vec() }
         });
-        House { server, ended, stage: Some(stage) }
+        ServerState { server, ended, stage: Some(stage) }
     }
 
     pub fn token(&self, role: Role) -> Token {
@@ -101,7 +101,7 @@ impl House {
     }
 }
 
-impl Drop for House {
+impl Drop for ServerState {
     fn drop(&mut self) {
         self.ended.store(true, Ordering::Relaxed);
     }
@@ -130,7 +130,7 @@ pub fn watch_until(client: &Client, step: u64) {
             return;
         }
     }
-    panic!("no frame of step {step}: {:?}, {:?}", client.tally(), client.standing());
+    panic!("no frame of step {step}: {:?}, {:?}", client.stats(), client.standing());
 }
 
 /// Waits for something that must come.

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use rosc::{OscBundle, OscMessage, OscPacket, OscTime, OscType, encoder::encode};
 use sinew_body::humanoid::{Body, Node, Pose, exp, log};
-use sinew_control::perform::{Build, PerformerSample, SampleStatus};
+use sinew_control::perform::{BodyProportions, PerformerSample, SampleStatus};
 use sinew_live::vmc::{VmcFrame, VmcReader};
 
 fn message(addr: &str, args: Vec<OscType>) -> OscPacket {
@@ -131,7 +131,7 @@ fn a_pose_comes_back_from_the_wire_as_single_precision_has_it() {
         // A few millionths for each part on the way from the hips.
         assert!(log(apart.normalize()).length() < 2e-5, "{node:?}");
     }
-    let (build, own) = (heard.build.unwrap(), Build::of(&body));
+    let (build, own) = (heard.build.unwrap(), BodyProportions::of(&body));
     // Single precision of half a metre.
     assert!((build.leg_m() - own.leg_m()).abs() < 1e-5);
 }

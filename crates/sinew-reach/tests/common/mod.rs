@@ -7,7 +7,7 @@
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, Sole, log};
-use sinew_reach::{Dice, Goal, Outcome, Reacher, Start, Style, standing};
+use sinew_reach::{Goal, Outcome, Reacher, Rng, Start, Style, standing};
 
 /// The two bodies of the claims: 80 kg and 1.7 m, 40 kg and 1.5 m.
 pub fn bodies() -> [Body; 2] {
@@ -29,9 +29,9 @@ pub fn goal(target: DVec3) -> Goal {
 }
 
 /// A target all around a body: from its feet to over its head, up to beyond what one step brings in reach.
-pub fn any_target(dice: &mut Dice, stature_m: f64) -> DVec3 {
-    let (angle, away) = (dice.between(-std::f64::consts::PI, std::f64::consts::PI), dice.between(0.2, 1.3));
-    DVec3::new(angle.sin() * away, dice.between(-0.1, 1.45), angle.cos() * away) * stature_m
+pub fn any_target(rng: &mut Rng, stature_m: f64) -> DVec3 {
+    let (angle, away) = (rng.between(-std::f64::consts::PI, std::f64::consts::PI), rng.between(0.2, 1.3));
+    DVec3::new(angle.sin() * away, rng.between(-0.1, 1.45), angle.cos() * away) * stature_m
 }
 
 pub fn hand(body: &Body, pose: &Pose, right: bool) -> DVec3 {

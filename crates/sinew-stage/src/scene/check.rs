@@ -2,7 +2,7 @@
 
 use super::error::{Fault, known, shortened};
 use super::range::{count, name, new_name, number, optional};
-use super::stage::MOST_SECS;
+use super::stage::MAX_SECS;
 use super::{SCENE_FORMAT, SceneSpec, Touchable};
 use sinew_control::GraphSpec;
 
@@ -10,7 +10,7 @@ use sinew_control::GraphSpec;
 pub const STAND: &str = "stand";
 
 /// Most key poses and states of graphs, over all characters.
-const MOST_RESOLVED: usize = 100_000;
+const MAX_RESOLVED: usize = 100_000;
 
 impl SceneSpec {
     /// Names of all key poses, the built-in one included.
@@ -81,9 +81,9 @@ impl SceneSpec {
         // Every character has its own of all poses and states.
         let states: usize = self.graphs.values().map(|graph| graph.states.len()).sum();
         let resolved = self.characters.len() * (self.poses.len() + states);
-        if resolved > MOST_RESOLVED {
+        if resolved > MAX_RESOLVED {
             let problem = format!(
-                "{} characters with {} poses and {states} states of graphs are too many: their product is above {MOST_RESOLVED}; \
+                "{} characters with {} poses and {states} states of graphs are too many: their product is above {MAX_RESOLVED}; \
                  leave some out",
                 self.characters.len(),
                 self.poses.len()
@@ -187,7 +187,7 @@ impl SceneSpec {
         };
         for (index, timed) in self.at.iter().enumerate() {
             let path = ["at".to_owned(), index.to_string(), "time_secs".to_owned()];
-            number(&path, timed.at_secs, 0.0..=MOST_SECS, "seconds from the start are expected")?;
+            number(&path, timed.at_secs, 0.0..=MAX_SECS, "seconds from the start are expected")?;
             command("at", index, &timed.command)?;
         }
         for (index, reaction) in self.when.iter().enumerate() {
@@ -195,7 +195,7 @@ impl SceneSpec {
             for thing in &reaction.touching {
                 self.touchable(thing).map_err(|problem| Fault::at(&path("touching"), problem))?;
             }
-            optional(&path("repeat_after_secs"), reaction.repeat_after_secs, 0.0..=MOST_SECS, "seconds are expected")?;
+            optional(&path("repeat_after_secs"), reaction.repeat_after_secs, 0.0..=MAX_SECS, "seconds are expected")?;
             command("when", index, &reaction.command)?;
         }
         for (index, binding) in self.keys.iter().enumerate() {

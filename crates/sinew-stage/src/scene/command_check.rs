@@ -1,18 +1,18 @@
 //! Whether a command fits a scene. Scripts, keys, takes and networks are held to this as the scene's own time line is.
 
 use super::error::{known, shortened};
-use super::kd::{MOST_GAIN, MOST_WEIGHT};
-use super::stage::MOST_SECS;
+use super::kd::{MAX_GAIN, MAX_WEIGHT};
+use super::stage::MAX_SECS;
 use super::{REFLEXES, SceneSpec, TrackerKind};
 use sinew_body::humanoid::Limb;
 use sinew_control::{Action, Command};
 use std::ops::RangeInclusive;
 
 /// Longest text in a command that is no Python \[bytes\].
-const MOST_WORDS: usize = 4096;
+const MAX_WORDS: usize = 4096;
 
 /// Largest Python text \[bytes\].
-pub(super) const MOST_PYTHON_BYTES: usize = 1 << 20;
+pub(super) const MAX_PYTHON_BYTES: usize = 1 << 20;
 
 impl SceneSpec {
     /// Whether a command names things that exist and holds numbers that are sound.
@@ -31,7 +31,7 @@ impl SceneSpec {
             }
             Err(format!("{key} = {value} is out of range {} to {}", range.start(), range.end()))
         };
-        let secs = |value: Option<f64>| within("for_secs", value.unwrap_or(0.0), 0.0..=MOST_SECS);
+        let secs = |value: Option<f64>| within("for_secs", value.unwrap_or(0.0), 0.0..=MAX_SECS);
         let three = |key: &str, value: [f64; 3], most: f64| {
             value.into_iter().try_for_each(|value| within(key, value, -most..=most))
         };
@@ -59,7 +59,7 @@ impl SceneSpec {
             }
             A::Signal { name } => {
                 self.owner(command)?;
-                words(name, MOST_WORDS)
+                words(name, MAX_WORDS)
             }
             A::Ik { link, target_m } => {
                 some_part(link)?;
@@ -120,7 +120,7 @@ impl SceneSpec {
                     part(only)?;
                 }
                 within("scale", *scale, -100.0..=100.0)?;
-                within("over_secs", over_secs.unwrap_or(0.0), 0.0..=MOST_SECS)?;
+                within("over_secs", over_secs.unwrap_or(0.0), 0.0..=MAX_SECS)?;
                 secs(*for_secs)
             }
             A::Motor { joint, speed_rad_s, angle_deg, speed_m_s, shift_m } => {
@@ -158,15 +158,15 @@ impl SceneSpec {
             A::Weights { parts, pin, joint, fade_secs, for_secs } => {
                 self.owner(command)?;
                 parts.iter().try_for_each(|name| part(name))?;
-                within("pin", pin.unwrap_or(1.0), 0.0..=MOST_WEIGHT)?;
-                within("joint", joint.unwrap_or(1.0), 0.0..=MOST_WEIGHT)?;
+                within("pin", pin.unwrap_or(1.0), 0.0..=MAX_WEIGHT)?;
+                within("joint", joint.unwrap_or(1.0), 0.0..=MAX_WEIGHT)?;
                 secs(*fade_secs)?;
                 secs(*for_secs)
             }
             A::Kd { k_p, d_p, k_q, d_q, fade_secs, for_secs, .. } => {
                 self.owner(command)?;
                 for (key, gain) in [("k_p", k_p), ("d_p", d_p), ("k_q", k_q), ("d_q", d_q)] {
-                    within(key, gain.unwrap_or(1.0), 0.0..=MOST_GAIN)?;
+                    within(key, gain.unwrap_or(1.0), 0.0..=MAX_GAIN)?;
                 }
                 secs(*fade_secs)?;
                 secs(*for_secs)
@@ -195,11 +195,11 @@ impl SceneSpec {
             }
             A::Reload { name, text } => {
                 self.controller(name)?;
-                words(text.as_deref().unwrap_or_default(), MOST_PYTHON_BYTES)
+                words(text.as_deref().unwrap_or_default(), MAX_PYTHON_BYTES)
             }
             A::ScriptKilled { name, reason } => {
                 self.controller(name)?;
-                words(reason, MOST_WORDS)
+                words(reason, MAX_WORDS)
             }
             A::Perform { .. } | A::Live { .. } => match &self.owner(command)?.source {
                 Some(source) if source.live.is_some() => match &command.action {
@@ -214,7 +214,7 @@ impl SceneSpec {
                 order.object.iter().chain(&order.avoid).try_for_each(|name| self.prop(name))
             }
             A::ReachEnd {} => self.owner(command).map(drop),
-            A::Say { text } => words(text, MOST_WORDS),
+            A::Say { text } => words(text, MAX_WORDS),
         }
     }
 

@@ -7,20 +7,20 @@ use std::collections::BTreeMap;
 use toml::{Table, Value};
 
 /// Largest scene or pose file \[bytes\].
-pub(super) const MOST_TEXT_BYTES: u64 = 4 << 20;
+pub(super) const MAX_TEXT_BYTES: u64 = 4 << 20;
 
 /// Largest scene together with its pose files \[bytes\].
-const MOST_TEXTS_BYTES: u64 = 8 << 20;
+const MAX_TEXTS_BYTES: u64 = 8 << 20;
 
 /// Signs that can begin a table (`{`, `=`, `.`) in a scene together with its pose files: a table takes 2 kB of memory, and
 /// a text of 4 MiB can hold two million. Decimal points count too.
-const MOST_TABLE_SIGNS: usize = 200_000;
+const MAX_TABLE_SIGNS: usize = 200_000;
 
 /// Commas in a scene together with its pose files, each a value of 200 bytes.
-const MOST_COMMAS: usize = 500_000;
+const MAX_COMMAS: usize = 500_000;
 
 /// All files of a scene together \[bytes\].
-const MOST_FILES_BYTES: u64 = 512 << 20;
+const MAX_FILES_BYTES: u64 = 512 << 20;
 
 /// Deepest path that can be set.
 const DEEPEST: usize = 32;
@@ -41,7 +41,7 @@ pub(super) struct Document {
     origins: BTreeMap<(&'static str, String), String>,
     /// What was changed from outside.
     sets: Vec<(String, String)>,
-    /// Of all texts so far, see [`MOST_TABLE_SIGNS`].
+    /// Of all texts so far, see [`MAX_TABLE_SIGNS`].
     table_signs: usize,
     /// Of all texts so far.
     commas: usize,
@@ -76,9 +76,9 @@ impl Document {
     /// Takes a file in.
     pub fn hold(&mut self, path: &str, files: &dyn Files, most_bytes: u64) -> Result<(), String> {
         if !self.files.contains_key(path) {
-            let left = MOST_FILES_BYTES - self.held_bytes();
+            let left = MAX_FILES_BYTES - self.held_bytes();
             let bytes = files.read(path, most_bytes.min(left)).map_err(|problem| match most_bytes > left {
-                true => format!("{problem} (all files of a scene together may have {MOST_FILES_BYTES} bytes)"),
+                true => format!("{problem} (all files of a scene together may have {MAX_FILES_BYTES} bytes)"),
                 false => problem,
             })?;
             self.files.insert(path.to_owned(), HeldFile::new(bytes));
@@ -97,12 +97,12 @@ impl Document {
         let (table_signs, commas) = (count(b"{=."), count(b","));
         self.table_signs += table_signs;
         self.commas += commas;
-        self.table_signs <= MOST_TABLE_SIGNS && self.commas <= MOST_COMMAS
+        self.table_signs <= MAX_TABLE_SIGNS && self.commas <= MAX_COMMAS
     }
 
     fn parse(&mut self, path: &str, files: &dyn Files) -> Result<Table, SceneError> {
         let whole = |line, problem| SceneError { file: files.shown(path), line, path: String::new(), problem };
-        self.hold(path, files, MOST_TEXT_BYTES).map_err(|problem| whole(None, problem))?;
+        self.hold(path, files, MAX_TEXT_BYTES).map_err(|problem| whole(None, problem))?;
         let is_light = self.weigh(path);
         let text = self.text(path);
         if std::str::from_utf8(&self.files[path].bytes).is_err() {
@@ -129,7 +129,7 @@ impl Document {
         let listed: Vec<String> = listed.into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect();
         for path in listed.iter().take(100) {
             // Only texts are held yet.
-            let left = MOST_TEXT_BYTES.min(MOST_TEXTS_BYTES - self.held_bytes());
+            let left = MAX_TEXT_BYTES.min(MAX_TEXTS_BYTES - self.held_bytes());
             let held = of_kind(path, &FileKind::POSES).and_then(|()| self.hold(path, files, left));
             if let Err(problem) = held {
                 let fault = Fault::at(&["stage", "pose_files"], format!("`{}`: {problem}", shortened(path)));
@@ -189,7 +189,7 @@ impl Document {
         if keys.len() > DEEPEST || keys.iter().any(|key| key.is_empty()) {
             return Err(Fault::at(&[shortened(path)], "write a path such as characters.left.pose_gain"));
         }
-        if value.len() as u64 > MOST_TEXT_BYTES {
+        if value.len() as u64 > MAX_TEXT_BYTES {
             return Err(fault(keys.len(), "the value is too long".to_owned()));
         }
         // A word that is no TOML is a text without its quotes.

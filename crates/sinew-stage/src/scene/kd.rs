@@ -114,13 +114,13 @@ impl KdSpec {
             ("k_q", self.k_q, "450 per second squared is usual"),
             ("d_q", self.d_q, "10 per second is usual"),
         ] {
-            optional(&at(key), value, 0.0..=MOST_GAIN, hint)?;
+            optional(&at(key), value, 0.0..=MAX_GAIN, hint)?;
         }
-        number(&at("strength"), self.strength, 0.0..=MOST_WEIGHT, "1 is as strong as ever")?;
+        number(&at("strength"), self.strength, 0.0..=MAX_WEIGHT, "1 is as strong as ever")?;
         for (part, weight) in &self.weights {
             let at = |key| ["characters", name, "kd", "weights", part, key];
-            number(&at("pin"), weight.pin, 0.0..=MOST_WEIGHT, "1 is as the gains say")?;
-            number(&at("joint"), weight.joint, 0.0..=MOST_WEIGHT, "1 is as the gains say")?;
+            number(&at("pin"), weight.pin, 0.0..=MAX_WEIGHT, "1 is as the gains say")?;
+            number(&at("joint"), weight.joint, 0.0..=MAX_WEIGHT, "1 is as the gains say")?;
         }
         Ok(())
     }
@@ -142,7 +142,7 @@ impl KdSpec {
 }
 
 /// Largest gain of the tracker `kd`.
-pub(super) const MOST_GAIN: f64 = 1e5;
+pub(super) const MAX_GAIN: f64 = 1e5;
 
 /// Largest weight of a part.
-pub(super) const MOST_WEIGHT: f64 = 100.0;
+pub(super) const MAX_WEIGHT: f64 = 100.0;

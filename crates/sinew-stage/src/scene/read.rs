@@ -1,6 +1,6 @@
 //! From a file to a sound scene.
 
-use super::command_check::MOST_PYTHON_BYTES;
+use super::command_check::MAX_PYTHON_BYTES;
 use super::document::Document;
 use super::error::{Fault, shortened};
 use super::files::{FileKind, of_kind};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Largest motion file of a scene \[bytes\].
-const MOST_CLIP_BYTES: u64 = 256 << 20;
+const MAX_CLIP_BYTES: u64 = 256 << 20;
 
 /// A scene that was read and found sound. Its tables are those of [`SceneSpec`], to which it dereferences.
 #[derive(Clone, Debug)]
@@ -99,8 +99,8 @@ impl Scene {
         }
         for (controller, ControllerSpec { file, text, .. }) in &spec.controllers {
             let at = |key| ["controllers", controller, key];
-            if text.as_ref().is_some_and(|text| text.len() > MOST_PYTHON_BYTES) {
-                let problem = format!("the text is longer than {MOST_PYTHON_BYTES} bytes; shorten it");
+            if text.as_ref().is_some_and(|text| text.len() > MAX_PYTHON_BYTES) {
+                let problem = format!("the text is longer than {MAX_PYTHON_BYTES} bytes; shorten it");
                 return Err(document.place(files, Fault::at(&at("text"), problem)));
             }
             if let Some(file) = file
@@ -168,7 +168,7 @@ impl Scene {
         let controller =
             self.spec.controllers.get(name).ok_or_else(|| format!("no controller `{}`", shortened(name)))?;
         let Some(file) = &controller.file else { return Ok(controller.text.clone().unwrap_or_default()) };
-        let bytes = self.source.read(file, MOST_PYTHON_BYTES as u64).map_err(|problem| format!("{file}: {problem}"))?;
+        let bytes = self.source.read(file, MAX_PYTHON_BYTES as u64).map_err(|problem| format!("{file}: {problem}"))?;
         String::from_utf8(bytes).map_err(|_| format!("{file} is no UTF-8 text; save it as UTF-8"))
     }
 }
@@ -182,12 +182,12 @@ fn named_files(spec: &SceneSpec) -> Vec<(Vec<String>, String, FileKind, u64)> {
         }
     };
     for (name, character) in &spec.characters {
-        add(&["characters", name, "clip"], &character.clip, FileKind::CLIP, MOST_CLIP_BYTES);
+        add(&["characters", name, "clip"], &character.clip, FileKind::CLIP, MAX_CLIP_BYTES);
         let clip = character.source.as_ref().and_then(|source| source.clip.clone());
-        add(&["characters", name, "source", "clip"], &clip, FileKind::CLIP, MOST_CLIP_BYTES);
+        add(&["characters", name, "source", "clip"], &clip, FileKind::CLIP, MAX_CLIP_BYTES);
     }
     for (name, controller) in &spec.controllers {
-        add(&["controllers", name, "file"], &controller.file, FileKind::PYTHON, MOST_PYTHON_BYTES as u64);
+        add(&["controllers", name, "file"], &controller.file, FileKind::PYTHON, MAX_PYTHON_BYTES as u64);
     }
     files
 }

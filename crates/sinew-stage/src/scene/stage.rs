@@ -126,7 +126,7 @@ impl StageSpec {
             0.0..=1000.0,
             "downward gravity in m/s² is expected, 9.81 on Earth",
         )?;
-        number(&at("duration_secs"), self.duration_secs, 1e-3..=MOST_SECS, "seconds are expected")?;
+        number(&at("duration_secs"), self.duration_secs, 1e-3..=MAX_SECS, "seconds are expected")?;
         number(&at("solver_iterations"), f64::from(self.solver_iterations), 1.0..=64.0, "4 is usual")?;
         count(&at("pose_files"), self.pose_files.len(), 100)?;
         if let FloorSpec::Surface(surface) = self.floor {
@@ -142,12 +142,12 @@ impl CameraSpec {
         count(&["camera", "times_secs"], self.times_secs.len(), 100)?;
         self.times_secs
             .iter()
-            .try_for_each(|&time| number(&["camera", "times_secs"], time, 0.0..=MOST_SECS, "seconds are expected"))
+            .try_for_each(|&time| number(&["camera", "times_secs"], time, 0.0..=MAX_SECS, "seconds are expected"))
     }
 }
 
 /// The longest run \[s\].
-pub(super) const MOST_SECS: f64 = 3600.0;
+pub(super) const MAX_SECS: f64 = 3600.0;
 
 /// Friction and bounce of something.
 pub(super) fn surface_check<S: ToString>(path: &[S], friction: Option<f64>, bounce: Option<f64>) -> Result<(), Fault> {

@@ -9,16 +9,16 @@ use std::io::Read;
 use std::path::Path;
 
 /// Largest take \[bytes\].
-pub(super) const MOST_BYTES: usize = 256 << 20;
+pub(super) const MAX_BYTES: usize = 256 << 20;
 
 /// Longest line \[bytes\]: a file of 4 MiB whose every character is escaped.
-pub(super) const MOST_LINE_BYTES: usize = 25 << 20;
+pub(super) const MAX_LINE_BYTES: usize = 25 << 20;
 
 /// Most commands in a take.
-pub(super) const MOST_COMMANDS: usize = 1_000_000;
+pub(super) const MAX_COMMANDS: usize = 1_000_000;
 
 /// Most files in a take.
-const MOST_FILES: usize = 2_000;
+const MAX_FILES: usize = 2_000;
 
 impl Take {
     /// Reads a take file.
@@ -34,7 +34,7 @@ impl Take {
         }
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(|error| whole(format!("the take cannot be read: {error}")))?;
-        let read = file.take(MOST_BYTES as u64 + 1).read_to_end(&mut bytes);
+        let read = file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
         read.map_err(|error| whole(format!("the take cannot be read: {error}")))?;
         Take::read(&bytes).map_err(|error| match error {
             TakeError::Line { line, problem } => whole(format!("line {line}: {problem}")),
@@ -47,8 +47,8 @@ impl Take {
     /// # Errors
     /// As [`Take::open`].
     pub fn read(bytes: &[u8]) -> Result<Take, TakeError> {
-        if bytes.len() > MOST_BYTES {
-            return Err(TakeError::Whole(format!("the take has more than {MOST_BYTES} bytes; record a shorter run")));
+        if bytes.len() > MAX_BYTES {
+            return Err(TakeError::Whole(format!("the take has more than {MAX_BYTES} bytes; record a shorter run")));
         }
         let Some(body) = bytes.strip_suffix(b"\n") else {
             return Err(TakeError::Whole("the take is cut off: its last line has no end; record it again".to_owned()));
@@ -60,8 +60,8 @@ impl Take {
             if ended {
                 return Err(TakeError::line(number, "nothing may follow the end; remove the line"));
             }
-            if line.len() > MOST_LINE_BYTES {
-                return Err(TakeError::line(number, format!("longer than {MOST_LINE_BYTES} bytes; record it again")));
+            if line.len() > MAX_LINE_BYTES {
+                return Err(TakeError::line(number, format!("longer than {MAX_LINE_BYTES} bytes; record it again")));
             }
             match kind(line) {
                 Kind::File => file(number, line, &mut take)?,
@@ -137,8 +137,8 @@ fn file(number: usize, line: &[u8], take: &mut Take) -> Result<(), TakeError> {
     if !take.commands.is_empty() {
         return Err(wrong("a file stands after a command; files come first"));
     }
-    if take.files.len() >= MOST_FILES {
-        return Err(TakeError::line(number, format!("more than {MOST_FILES} files; use fewer")));
+    if take.files.len() >= MAX_FILES {
+        return Err(TakeError::line(number, format!("more than {MAX_FILES} files; use fewer")));
     }
     let line: FileLine = parse(number, line)?;
     crate::scene::allowed(&line.file).map_err(|problem| TakeError::line(number, problem))?;
@@ -165,8 +165,8 @@ fn file(number: usize, line: &[u8], take: &mut Take) -> Result<(), TakeError> {
 
 fn command(number: usize, line: &[u8], take: &mut Take) -> Result<(), TakeError> {
     let CommandLine { step, command } = parse(number, line)?;
-    if take.commands.len() >= MOST_COMMANDS {
-        return Err(TakeError::line(number, format!("more than {MOST_COMMANDS} commands; record a shorter run")));
+    if take.commands.len() >= MAX_COMMANDS {
+        return Err(TakeError::line(number, format!("more than {MAX_COMMANDS} commands; record a shorter run")));
     }
     if take.commands.last().is_some_and(|last| last.step > step) {
         return Err(TakeError::line(number, format!("step {step} stands after a later one; put the lines in order")));

@@ -72,7 +72,7 @@ impl Take {
     pub fn of(scene: &Scene) -> Take {
         let file = |held: &HeldFile| TakeFile {
             hash: held.hash,
-            bytes: (held.bytes.len() <= super::write::MOST_HELD_BYTES).then(|| Arc::clone(&held.bytes)),
+            bytes: (held.bytes.len() <= super::write::MAX_HELD_BYTES).then(|| Arc::clone(&held.bytes)),
         };
         Take {
             version: env!("CARGO_PKG_VERSION").to_owned(),

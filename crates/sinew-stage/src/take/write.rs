@@ -1,14 +1,14 @@
 //! Writing a take.
 
 use super::line::{CommandLine, EndLine, FileLine, Header, hex};
-use super::read::{MOST_BYTES, MOST_COMMANDS, MOST_LINE_BYTES};
+use super::read::{MAX_BYTES, MAX_COMMANDS, MAX_LINE_BYTES};
 use super::{TAKE_FORMAT, Take, TakeError};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::path::Path;
 
 /// Largest file that a take holds \[bytes\]; of larger ones it keeps the hash. A motion of a few minutes fits.
-pub(super) const MOST_HELD_BYTES: usize = 4 << 20;
+pub(super) const MAX_HELD_BYTES: usize = 4 << 20;
 
 impl Take {
     /// Writes the take to a file, whole or not at all.
@@ -44,9 +44,9 @@ impl Take {
             };
             add(&mut out, &FileLine { file: path.clone(), hash: hex(file.hash), text, base64 })?;
         }
-        if self.commands.len() > MOST_COMMANDS {
+        if self.commands.len() > MAX_COMMANDS {
             return Err(TakeError::Whole(format!(
-                "more than {MOST_COMMANDS} commands cannot be recorded; record a shorter run"
+                "more than {MAX_COMMANDS} commands cannot be recorded; record a shorter run"
             )));
         }
         for stamped in &self.commands {
@@ -66,8 +66,8 @@ impl Take {
             hashes: self.trace.iter().flat_map(|trace| &trace.hashes).map(|&hash| hex(hash)).collect(),
         };
         add(&mut out, &end)?;
-        if out.len() > MOST_BYTES {
-            return Err(TakeError::Whole(format!("the take has more than {MOST_BYTES} bytes; record a shorter run")));
+        if out.len() > MAX_BYTES {
+            return Err(TakeError::Whole(format!("the take has more than {MAX_BYTES} bytes; record a shorter run")));
         }
         Ok(out)
     }
@@ -77,8 +77,8 @@ fn add<T: serde::Serialize>(out: &mut Vec<u8>, line: &T) -> Result<(), TakeError
     let start = out.len();
     serde_json::to_writer(&mut *out, line).map_err(|error| TakeError::Whole(format!("cannot be written: {error}")))?;
     out.push(b'\n');
-    if out.len() - start > MOST_LINE_BYTES {
-        return Err(TakeError::Whole(format!("a line has more than {MOST_LINE_BYTES} bytes; use smaller files")));
+    if out.len() - start > MAX_LINE_BYTES {
+        return Err(TakeError::Whole(format!("a line has more than {MAX_LINE_BYTES} bytes; use smaller files")));
     }
     Ok(())
 }

@@ -50,7 +50,7 @@ pub(super) struct Join {
 const LOOK: Duration = Duration::from_millis(5);
 
 /// Lines that wait to be sent.
-const MOST_LINES: usize = 100;
+const MAX_LINES: usize = 100;
 
 impl Join {
     pub(super) fn run(&self) -> Result<()> {
@@ -76,27 +76,27 @@ impl Join {
             }
             // Those of the scene count from its start.
             scene.set("camera.times_secs", "[]")?;
-            let first = report.tally.first_step.unwrap_or_default();
+            let first = report.stats.first_step.unwrap_or_default();
             self.out.write_motion(view.recording(), &scene, &format!("as {whom} saw it from step {first} on"))?;
         }
         self.out.files().write_report(&report)?;
-        let tally = &report.tally;
+        let stats = &report.stats;
         let mut lines = vec![format!(
             "{} frames to step {}, {} late, {} differ; round trip {:.1} ms",
-            tally.frames,
-            tally.last_step.unwrap_or_default(),
-            tally.frames_late,
-            tally.frames_that_differ,
-            tally.round_trip_ms
+            stats.frames,
+            stats.last_step.unwrap_or_default(),
+            stats.frames_late,
+            stats.frames_that_differ,
+            stats.round_trip_ms
         )];
-        lines.extend(tally.not_passed.iter().map(|problem| format!("not passed on: {problem}")));
+        lines.extend(stats.not_passed.iter().map(|problem| format!("not passed on: {problem}")));
         lines.extend(self.out.files().words(std::iter::empty()));
         output::say(&lines.join("\n"))?;
-        if tally.frames_that_differ > 0 {
+        if stats.frames_that_differ > 0 {
             bail!("what arrived is not what the server has: its hashes differ; use the same Sinew on both sides");
         }
         match report.ended {
-            Some(why) if tally.frames == 0 => bail!("{why}"),
+            Some(why) if stats.frames == 0 => bail!("{why}"),
             _ => Ok(()),
         }
     }
@@ -176,7 +176,7 @@ fn read_small(path: &Path) -> Result<String> {
 
 /// Lines of the standard input, read by a thread that ends with the program or the input.
 fn lines() -> Receiver<String> {
-    let (sender, lines) = sync_channel(MOST_LINES);
+    let (sender, lines) = sync_channel(MAX_LINES);
     std::thread::spawn(move || {
         for line in std::io::stdin().lock().lines().map_while(Result::ok) {
             if sender.send(line).is_err() {

@@ -26,7 +26,7 @@ pub(super) struct Run {
     #[arg(long, value_name = "KEY@SECONDS", value_parser = press)]
     press: Vec<(f64, String)>,
     /// Run at the pace of the clock: controllers are read again when their files change, and lines of the standard input are
-    /// obeyed: a key of the scene, or a command as JSON such as {"character":"left","do":"pose","name":"guard"}.
+    /// applied: a key of the scene, or a command as JSON such as {"character":"left","do":"pose","name":"guard"}.
     #[arg(long)]
     real_time: bool,
     /// Step the world on this many threads: a gain for crowds, with the same bits.
@@ -191,10 +191,10 @@ impl Out {
         let report = &ran.report;
         let mut lines =
             vec![format!("{title}: {:.2} s, {} steps, hash {}", report.duration_s, report.steps, report.hash)];
-        for event in report.events.iter().take(MOST_LINES) {
+        for event in report.events.iter().take(MAX_LINES) {
             lines.push(format!("  {:7.3} s  {}  ({})", event.time_secs, event.effect, event.cause));
         }
-        let hidden = report.events.len().saturating_sub(MOST_LINES) as u64 + report.events_dropped;
+        let hidden = report.events.len().saturating_sub(MAX_LINES) as u64 + report.events_dropped;
         if hidden > 0 {
             lines.push(format!("  and {hidden} more events; --report R.json lists them"));
         }
@@ -244,7 +244,7 @@ fn first_difference(one: &Take, other: &Take) -> Option<u64> {
 }
 
 /// Events that are printed.
-const MOST_LINES: usize = 30;
+const MAX_LINES: usize = 30;
 
 /// A progress bar on a terminal, nothing when piped.
 fn bar() -> ProgressBar {

@@ -4,7 +4,7 @@ use super::output;
 use super::run::{Out, assignment, script_host};
 use super::session::Session;
 use anyhow::{Context, Result};
-use sinew::session::{Playbill, Role, ServeJob, Server, ServerSettings, limits, serve};
+use sinew::session::{Role, SceneManifest, ServeJob, Server, ServerSettings, limits, serve};
 use sinew::stage::Scene;
 use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
@@ -57,7 +57,7 @@ impl Serve {
             scene.set(path, value)?;
         }
         let settings = ServerSettings { bind: self.bind, name: self.name.clone(), most_clients: self.most_clients };
-        let (server, desk) = Server::open(&settings, Playbill::of(&scene)?)?;
+        let (server, queue) = Server::open(&settings, SceneManifest::of(&scene)?)?;
         self.tell(&server, &scene)?;
         server.stop_on_interrupt();
         let job = ServeJob {
@@ -68,7 +68,7 @@ impl Serve {
         };
         let for_picture = scene.clone();
         let mut keyboard = Session::begin(&scene);
-        let served = serve(scene, &job, &server, desk, |stage| keyboard.before_step(stage))?;
+        let served = serve(scene, &job, &server, queue, |stage| keyboard.before_step(stage))?;
         drop(server);
         if let (Some(path), Some(take)) = (&self.take, &served.take) {
             output::make_folder(path)?;

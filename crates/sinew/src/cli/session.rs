@@ -17,15 +17,15 @@ pub(super) struct Session {
     told: usize,
 }
 
-/// Lines that wait to be obeyed.
-const MOST_LINES: usize = 100;
+/// Lines that wait to be applied.
+const MAX_LINES: usize = 100;
 
 /// Time between two looks at the controllers' files.
 const LOOK: Duration = Duration::from_millis(200);
 
 impl Session {
     pub(super) fn begin(scene: &Scene) -> Session {
-        let (sender, lines) = sync_channel(MOST_LINES);
+        let (sender, lines) = sync_channel(MAX_LINES);
         // It ends with the program, or with the input.
         std::thread::spawn(move || {
             for line in std::io::stdin().lock().lines().map_while(Result::ok) {
@@ -47,7 +47,7 @@ impl Session {
         let began = *self.began.get_or_insert_with(Instant::now);
         let due = Duration::from_secs_f64(stage.frame().time_secs);
         std::thread::sleep(due.saturating_sub(began.elapsed()));
-        for line in self.lines.try_iter().take(MOST_LINES) {
+        for line in self.lines.try_iter().take(MAX_LINES) {
             obey(stage, line.trim());
         }
         if self.looked.elapsed() > LOOK {

@@ -101,8 +101,8 @@ const HZ: f64 = 60.0;
 const HOLD_SECS: f64 = 0.4;
 
 /// Farthest target \[m\] and longest time \[s\] that are taken.
-const MOST_M: f64 = 1e4;
-const MOST_SECS: f64 = 600.0;
+const MAX_M: f64 = 1e4;
+const MAX_SECS: f64 = 600.0;
 
 /// Makes the motion of a reach, from standing or from a clip.
 ///
@@ -162,7 +162,7 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
     let mut meter = ReachMeter::default();
     let mut places: Vec<Vec<(DVec3, DQuat)>> = vec![Vec::new(); targets.len()];
     let mut frame = 0;
-    while frame as f64 <= end * HZ + 0.5 && frame as f64 <= MOST_SECS * HZ {
+    while frame as f64 <= end * HZ + 0.5 && frame as f64 <= MAX_SECS * HZ {
         let secs = frame as f64 / HZ;
         reacher.advance(secs);
         if moves {
@@ -239,16 +239,16 @@ impl ReachJob {
         let wrong = |text: String| Err(ReachError::Target(text));
         let places = [self.target, self.left, self.right].into_iter().flatten();
         for place in places.clone().chain(self.moving.iter().map(|point| point.at)) {
-            if !place.is_finite() || place.abs().max_element() > MOST_M {
-                return wrong(format!("a target of {place} is out of range; give metres, at most {MOST_M:.0}"));
+            if !place.is_finite() || place.abs().max_element() > MAX_M {
+                return wrong(format!("a target of {place} is out of range; give metres, at most {MAX_M:.0}"));
             }
         }
         if places.count() == 0 {
             return wrong("nothing to reach; give --target X:Y:Z in metres: x to the left, y up, z forward".to_owned());
         }
         for point in &self.moving {
-            if !(0.0..=MOST_SECS).contains(&point.secs) {
-                return wrong(format!("a time of {} s is out of range; it is 0 to {MOST_SECS:.0}", point.secs));
+            if !(0.0..=MAX_SECS).contains(&point.secs) {
+                return wrong(format!("a time of {} s is out of range; it is 0 to {MAX_SECS:.0}", point.secs));
             }
         }
         if self.moving.windows(2).any(|pair| pair[1].secs <= pair[0].secs) {

@@ -9,7 +9,7 @@ use sinew_response::{
 };
 
 /// Most frames that a repetition may make: half an hour at 120 Hz.
-const MOST_FRAMES: usize = 216_000;
+const MAX_FRAMES: usize = 216_000;
 
 /// What is to happen to a clip.
 #[derive(Clone, Debug, Default)]
@@ -47,7 +47,7 @@ pub enum RespondError {
     #[error("no gait cycle was found to repeat; give one with --cycle FIRST..LAST")]
     NoCycle,
     /// Too much of it.
-    #[error("{0} repetitions of {1} frames are more than {MOST_FRAMES} frames; repeat less often")]
+    #[error("{0} repetitions of {1} frames are more than {MAX_FRAMES} frames; repeat less often")]
     TooLong(usize, usize),
     /// Settings that exclude each other or are out of range.
     #[error("{0}")]
@@ -183,7 +183,7 @@ fn repeated(
     }
     let (first, last) = cycle.ok_or(RespondError::NoCycle)?;
     let frames = last - first;
-    if frames.saturating_mul(times) > MOST_FRAMES {
+    if frames.saturating_mul(times) > MAX_FRAMES {
         return Err(RespondError::TooLong(times, frames));
     }
     Ok(Some(repeat(&file.clip, humanoid, (first, last), times)))

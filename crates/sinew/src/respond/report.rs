@@ -19,7 +19,7 @@ pub struct RespondReport {
     pub file: String,
     /// `robust`, `paper` or `literal`.
     pub preset: String,
-    /// How many coordinates obeyed dynamics.
+    /// How many coordinates applied dynamics.
     pub k: usize,
     /// `low` or `high`.
     pub coordinates: String,

@@ -114,7 +114,7 @@ pub fn capsules(solid: &Solid) -> Vec<(DVec3, DVec3, f64)> {
         }
         Form::Box { size_m } => boxed(*size_m).into_iter().map(|(from, to, radius)| line(from, to, radius)).collect(),
         Form::Mesh { points_m, triangles } => {
-            let edges = triangles.iter().take(MOST_EDGES / 3).flat_map(|corners| {
+            let edges = triangles.iter().take(MAX_EDGES / 3).flat_map(|corners| {
                 [(0, 1), (1, 2), (2, 0)].map(|(from, to)| (corners[from] as usize, corners[to] as usize))
             });
             let edge = |(from, to): (usize, usize)| Some(line(*points_m.get(from)?, *points_m.get(to)?, EDGE_M));
@@ -122,13 +122,13 @@ pub fn capsules(solid: &Solid) -> Vec<(DVec3, DVec3, f64)> {
         }
         Form::Hull { points_m } => {
             let middle = points_m.iter().sum::<DVec3>() / points_m.len().max(1) as f64;
-            points_m.iter().take(MOST_EDGES).map(|point| line(middle, *point, EDGE_M)).collect()
+            points_m.iter().take(MAX_EDGES).map(|point| line(middle, *point, EDGE_M)).collect()
         }
     }
 }
 
 /// Edges of a mesh that are shown.
-const MOST_EDGES: usize = 600;
+const MAX_EDGES: usize = 600;
 
 /// Half the thickness of a shown edge \[m\].
 const EDGE_M: f64 = 0.01;

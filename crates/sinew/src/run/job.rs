@@ -38,7 +38,7 @@ pub enum RunError {
     #[error(transparent)]
     Stage(#[from] StageError),
     /// A duration out of range.
-    #[error("{0} s is out of range; give more than 0 and at most {MOST_SECS} s")]
+    #[error("{0} s is out of range; give more than 0 and at most {MAX_SECS} s")]
     Duration(f64),
     /// A key that the scene does not bind.
     #[error("the scene has no key `{0}`; add [[keys]] with key = \"{0}\", or press another")]
@@ -46,7 +46,7 @@ pub enum RunError {
 }
 
 /// The longest run \[s\].
-pub(crate) const MOST_SECS: f64 = 3600.0;
+pub(crate) const MAX_SECS: f64 = 3600.0;
 
 /// Steps between two hashes of a take's trace: one a second at 240 Hz.
 pub(crate) const TRACE_STEPS: u64 = 240;
@@ -68,7 +68,7 @@ pub(crate) const TRACE_STEPS: u64 = 240;
 /// When the scene cannot be built or the time is out of range.
 pub fn run(scene: Scene, job: &RunJob, before_step: impl FnMut(&mut Stage, u64, u64)) -> Result<Ran, RunError> {
     let for_secs = job.for_secs.unwrap_or(scene.stage.duration_secs);
-    if !(for_secs > 0.0 && for_secs <= MOST_SECS) {
+    if !(for_secs > 0.0 && for_secs <= MAX_SECS) {
         return Err(RunError::Duration(for_secs));
     }
     let steps = (for_secs * f64::from(scene.stage.physics_hz)).round().max(1.0) as u64;

@@ -3,17 +3,17 @@
 mod actors;
 mod draw;
 mod export;
+mod external_force;
 mod job;
 mod reaches;
 mod report;
-mod spent;
 
 pub use actors::{ActorReport, LatencyReport};
 pub(crate) use draw::custom;
 pub use draw::{figure, sheet};
 pub use export::{body_shapes, character_clip, csv, scene_clip};
+pub use external_force::ExternalForceReport;
 #[cfg(feature = "session")]
-pub(crate) use job::{MOST_SECS, TRACE_STEPS};
+pub(crate) use job::{MAX_SECS, TRACE_STEPS};
 pub use job::{Ran, RunError, RunJob, replay, run};
 pub use report::RunReport;
-pub use spent::SpentReport;

@@ -14,7 +14,7 @@ pub(super) struct ReachWatch {
 }
 
 /// Reaches that are reported.
-const MOST_REACHES: usize = 1000;
+const MAX_REACHES: usize = 1000;
 
 impl ReachWatch {
     /// Looks at the stage after a step, and keeps the last of the reports as it is now.
@@ -32,7 +32,7 @@ impl ReachWatch {
         let pose = stage.frame().characters[character].pose();
         let now = Instant { reacher: reach.reacher, secs: reach.now_secs, goal: reach.goal, body, pose: &pose };
         self.meter.watch(&now, 1.0 / f64::from(spec.motion_hz));
-        if self.count > MOST_REACHES {
+        if self.count > MAX_REACHES {
             return;
         }
         let report = self.meter.report(reach.reacher, reach.since_secs, reach.now_secs);

@@ -1,8 +1,8 @@
 //! What happened in a run, in numbers.
 
 use super::actors::{self, ActorReport};
+use super::external_force::{ExternalForceReport, Meter};
 use super::reaches::ReachWatch;
-use super::spent::{Meter, SpentReport};
 use crate::reach::ReachReport;
 use serde::Serialize;
 use sinew_live::Performers;
@@ -55,9 +55,9 @@ pub struct CharacterReport {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub reaches: Vec<ReachReport>,
     /// What pins spent, by part, and all together under `all`; the weight that they carry included.
-    pub pins: BTreeMap<String, SpentReport>,
+    pub pins: BTreeMap<String, ExternalForceReport>,
     /// What else held parts from outside: physics switched off, planes, holds on what does not move.
-    pub held: BTreeMap<String, SpentReport>,
+    pub held: BTreeMap<String, ExternalForceReport>,
     #[serde(skip)]
     meters: [Meter; 2],
     #[serde(skip)]

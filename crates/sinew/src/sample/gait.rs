@@ -38,7 +38,7 @@ const TOE_OUT_RAD: f64 = 0.105;
 const TOES_UP: f64 = 0.4;
 /// Least bend of a knee that a leg is left with \[rad\]: 9°. The mean walk's own least is 12°, and the straighter a knee, the
 /// harder it turns for a millimetre that its ankle is moved.
-const LEAST_FLEXION_RAD: f64 = 0.16;
+const MIN_FLEXION_RAD: f64 = 0.16;
 /// Least height of a swinging foot's lowest point above the floor in mid swing, in a 1.70 m body \[m\].
 const CLEARANCE_M: f64 = 0.010;
 /// Step of difference quotients \[strides\].
@@ -312,7 +312,7 @@ impl Gait {
     fn overreach(&self) -> f64 {
         let length = |node: Node| self.frame.body.link(node).offset.length();
         let (thigh, shank) = (length(Node::LeftLowerLeg), length(Node::LeftFoot));
-        let longest_squared = thigh * thigh + shank * shank + 2.0 * thigh * shank * libm::cos(LEAST_FLEXION_RAD);
+        let longest_squared = thigh * thigh + shank * shank + 2.0 * thigh * shank * libm::cos(MIN_FLEXION_RAD);
         (0..2 * SAMPLES)
             .map(|index| {
                 let phase = LANDS + index as f64 / (2 * SAMPLES) as f64;

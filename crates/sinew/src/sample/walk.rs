@@ -8,7 +8,7 @@ use sinew_motion::Clip;
 use sinew_motion::formats::BodyShape;
 
 /// Most frames that are made: an hour at 60 per second.
-const MOST_FRAMES: f64 = 216_000.0;
+const MAX_FRAMES: f64 = 216_000.0;
 
 /// A walk to be made.
 ///
@@ -60,7 +60,7 @@ pub enum WalkError {
     /// Nobody of this stature walks with such strides.
     #[error(
         "strides of {stride_m:.2} m are no walk of a body of {stature_m:.2} m; a stride (120 × speed / cadence) of about \
-         {:.2} to {:.2} m is: change speed or cadence", .stature_m * LEAST_STRIDE, .stature_m * LONGEST_STRIDE
+         {:.2} to {:.2} m is: change speed or cadence", .stature_m * MIN_STRIDE, .stature_m * LONGEST_STRIDE
     )]
     Stride {
         /// The stride asked for \[m\].
@@ -72,13 +72,13 @@ pub enum WalkError {
 
 /// Shortest and longest stride that the mean walk's angles are stretched to \[statures\]. Of the people measured the longest
 /// had 1.02, the mean 0.87.
-const LEAST_STRIDE: f64 = 0.45;
+const MIN_STRIDE: f64 = 0.45;
 const LONGEST_STRIDE: f64 = 1.05;
 
 impl Walk {
     /// Frames from one moment of a foot to the next.
     pub fn frames_per_stride(&self) -> usize {
-        (120.0 / self.cadence_steps_per_min * self.fps).round().clamp(1.0, MOST_FRAMES) as usize
+        (120.0 / self.cadence_steps_per_min * self.fps).round().clamp(1.0, MAX_FRAMES) as usize
     }
 
     fn gait(&self) -> Result<Gait, WalkError> {
@@ -90,11 +90,11 @@ impl Walk {
         within("speed in metres per second", self.speed_m_per_s, 0.1, 4.0)?;
         within("cadence in steps per minute", self.cadence_steps_per_min, 40.0, 220.0)?;
         within("frame rate per second", self.fps, 10.0, 1000.0)?;
-        let most = (MOST_FRAMES / self.frames_per_stride() as f64).floor();
+        let most = (MAX_FRAMES / self.frames_per_stride() as f64).floor();
         within("number of cycles", self.cycles as f64, 1.0, most)?;
         let stride_m = self.speed_m_per_s * self.frames_per_stride() as f64 / self.fps;
         let refused = WalkError::Stride { stride_m, stature_m: self.stature_m };
-        if !(LEAST_STRIDE..=LONGEST_STRIDE).contains(&(stride_m / self.stature_m)) {
+        if !(MIN_STRIDE..=LONGEST_STRIDE).contains(&(stride_m / self.stature_m)) {
             return Err(refused);
         }
         let frame = Frame::new(self.stature_m);

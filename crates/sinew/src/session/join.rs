@@ -1,7 +1,7 @@
 //! What somebody who has joined keeps of what they see.
 
 use serde::Serialize;
-use sinew_live::session::{Client, Role, Standing, Tally};
+use sinew_live::session::{Client, ClientStats, Role, Standing};
 use sinew_stage::{Recording, StageError};
 use sinew_world::Frame;
 
@@ -20,7 +20,7 @@ pub struct JoinReport {
     pub ended: Option<String>,
     /// What was received.
     #[serde(flatten)]
-    pub tally: Tally,
+    pub stats: ClientStats,
 }
 
 impl JoinReport {
@@ -36,7 +36,7 @@ impl JoinReport {
                 Standing::Ended(why) => Some(why.to_string()),
                 _ => None,
             },
-            tally: client.tally(),
+            stats: client.stats(),
         }
     }
 }
@@ -49,7 +49,7 @@ pub struct View {
 }
 
 /// Frames that are kept: an hour at 60 Hz.
-const MOST_FRAMES: usize = 216_000;
+const MAX_FRAMES: usize = 216_000;
 
 impl View {
     /// Nothing yet.
@@ -68,7 +68,7 @@ impl View {
         let place = frame.step.saturating_sub(first) / self.steps_per_frame;
         let is_whole = frame.characters.len() == self.recording.characters.len()
             && frame.props.len() == self.recording.props.len();
-        while is_whole && self.recording.frames as u64 <= place && self.recording.frames < MOST_FRAMES {
+        while is_whole && self.recording.frames as u64 <= place && self.recording.frames < MAX_FRAMES {
             self.recording.push_frame(frame);
         }
     }

@@ -1,8 +1,8 @@
 //! A scene runs in real time for all who join.
 
-use crate::run::{MOST_SECS, RunError, RunReport, TRACE_STEPS};
+use crate::run::{MAX_SECS, RunError, RunReport, TRACE_STEPS};
 use serde::Serialize;
-use sinew_live::session::{Desk, Obeyed, Pacer, Server, ServerCounts, Theatre};
+use sinew_live::session::{AppliedCommand, Pacer, Server, ServerCounts, SessionRunner, StageQueue};
 use sinew_script::ScriptHost;
 use sinew_stage::take::HashTrace;
 use sinew_stage::{Recording, Scene, Stage, Take};
@@ -40,7 +40,7 @@ pub struct ServeReport {
     /// What came of all that arrived.
     pub clients: ServerCounts,
     /// Commands and keys of clients, with the steps of their arrival and of their obedience.
-    pub obeyed: Vec<Obeyed>,
+    pub applied: Vec<AppliedCommand>,
     /// Times that the machine fell so far behind the clock that time was given up.
     pub lapses: u64,
     /// Hash of single frames by step, to be compared with those in the reports of `sinew join`.
@@ -50,13 +50,13 @@ pub struct ServeReport {
 /// Runs a scene at the pace of the clock until its time is over or somebody stops it. `told` is called before every step.
 ///
 /// ```
-/// use sinew::session::{Playbill, ServeJob, Server, ServerSettings, serve};
+/// use sinew::session::{SceneManifest, ServeJob, Server, ServerSettings, serve};
 /// use sinew::stage::Scene;
 /// let scene = Scene::from_text("format = 1\n[characters.red]\n")?;
 /// let settings = ServerSettings { bind: "127.0.0.1:0".parse()?, ..ServerSettings::default() };
-/// let (server, desk) = Server::open(&settings, Playbill::of(&scene)?)?;
+/// let (server, queue) = Server::open(&settings, SceneManifest::of(&scene)?)?;
 /// let job = ServeJob { for_secs: Some(0.1), ..ServeJob::default() };
-/// let served = serve(scene, &job, &server, desk, |_| ())?;
+/// let served = serve(scene, &job, &server, queue, |_| ())?;
 /// assert_eq!(served.report.run.steps, 24);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -67,7 +67,7 @@ pub fn serve(
     scene: Scene,
     job: &ServeJob,
     server: &Server,
-    desk: Desk,
+    queue: StageQueue,
     mut told: impl FnMut(&mut Stage),
 ) -> Result<Served, RunError> {
     if let Some(secs) = job.for_secs
@@ -84,22 +84,22 @@ pub fn serve(
     let mut recording = job.keeps_motion.then(|| Recording::new(&stage));
     let mut report = RunReport::of(&stage);
     let mut trace = Vec::new();
-    let mut theatre = Theatre::new(desk, &stage);
+    let mut session_runner = SessionRunner::new(queue, &stage);
     let mut pacer = Pacer::new(0, stage.world().settings().step_secs());
     if let Some(recording) = &mut recording {
         recording.push(&stage);
     }
-    while stage.frame().step < last && !theatre.should_stop() {
+    while stage.frame().step < last && !session_runner.should_stop() {
         pacer.wait(stage.frame().step);
         told(&mut stage);
-        theatre.before_step(&mut stage);
+        session_runner.before_step(&mut stage);
         stage.step();
-        theatre.after_step(&stage);
+        session_runner.after_step(&stage);
         report.watch(&stage);
         let step = stage.frame().step;
         if let Some(recording) = &mut recording
             && step.is_multiple_of(per_frame)
-            && stage.frame().time_secs <= MOST_SECS
+            && stage.frame().time_secs <= MAX_SECS
         {
             recording.push(&stage);
         }
@@ -116,9 +116,9 @@ pub fn serve(
     let report = ServeReport {
         run: report,
         clients: server.counts(),
-        obeyed: theatre.obeyed().to_vec(),
+        applied: session_runner.applied().to_vec(),
         lapses: pacer.lapses,
-        hashes: theatre.hashes().clone(),
+        hashes: session_runner.hashes().clone(),
     };
     Ok(Served { report, recording, take })
 }

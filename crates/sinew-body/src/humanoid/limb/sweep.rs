@@ -99,7 +99,7 @@ impl Sweep {
             };
             bound(middle.z, cosine.z, sine.z, tight[0].max(tight[1]))
                 + bound(middle.x, cosine.x, sine.x, tight[2].max(tight[3]))
-                + MOST_OF_S * reach
+                + MAX_OF_S * reach
         });
         let mut sweep = Sweep { begin, quarter, middle, cosine, sine, tight, twist, arcs: [Arc::ALL, Arc::ALL], curb };
         sweep.arcs = [sweep.twist_arc(), sweep.swing_arc(widest, reach)];
@@ -237,7 +237,7 @@ fn twist_of(w: f64, y: f64) -> f64 {
 
 /// Bound of (S(u_y))'' over the amplitude of u_y: S' is at most 2/3, and what S'' adds is largest near the far pole. A test tries
 /// it.
-const MOST_OF_S: f64 = 1.1;
+const MAX_OF_S: f64 = 1.1;
 
 /// S = sin²θ/θ² and its derivative by cos θ.
 fn s(cosine: f64) -> (f64, f64) {

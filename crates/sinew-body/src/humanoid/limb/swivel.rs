@@ -4,7 +4,7 @@ use super::sweep::Sweep;
 use std::f64::consts::PI;
 
 /// Steps after which a search that has come to no end counts as fruitless; three or four are usual.
-const MOST_STEPS: usize = 64;
+const MAX_STEPS: usize = 64;
 
 /// What a swivel of one radian counts against excess, where no swivel is inside the limits: the limb is not thrown round for a
 /// little less.
@@ -34,7 +34,7 @@ pub(super) fn nearest(sweeps: &[Sweep]) -> Option<f64> {
 fn first(sweeps: &[Sweep], sign: f64, most: f64) -> Option<f64> {
     let round = sweeps.iter().all(Sweep::is_round);
     let mut at = 0.0;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let mut next = at;
         for sweep in sweeps {
             next = sweep.next(sign, next)?;

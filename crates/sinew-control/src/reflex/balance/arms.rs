@@ -65,7 +65,7 @@ impl Arms {
 
 /// Turns neck and head back by what the chest is off upright; `off` takes it there (world axes) \[rad\].
 pub(super) fn level_head(sense: &Sense, off: DVec3, strength: f64, target: &mut Target) {
-    let turn = off.clamp_length_max(MOST_HEAD_RAD) * (0.5 * strength);
+    let turn = off.clamp_length_max(MAX_HEAD_RAD) * (0.5 * strength);
     for (above, node) in [(Node::Chest, Node::Neck), (Node::Neck, Node::Head)] {
         let parent_from_world = sense.character().part(above).rotation.conjugate();
         let joint = target.joint_mut(node);
@@ -74,4 +74,4 @@ pub(super) fn level_head(sense: &Sense, off: DVec3, strength: f64, target: &mut 
 }
 
 /// How far the head is turned back \[rad\].
-const MOST_HEAD_RAD: f64 = 0.6;
+const MAX_HEAD_RAD: f64 = 0.6;

@@ -10,30 +10,30 @@
 //! and a disturbed one is no stiffer than its gains.
 
 mod carrier;
-mod giving;
-mod leaning;
-mod passing;
+mod contact_support;
+mod get_up;
+mod impact_compliance;
+mod inertial_blend;
 mod ramp;
-mod rise;
+mod self_collision;
 mod settings;
-mod slide;
-mod way;
+mod transition;
 
 pub use settings::{KdDamping, KdGains, KdPreset, KdSettings, KdWeight};
 
 use super::clock::Clock;
-use super::glide::Glide;
 use super::instant::Instant;
+use super::pose_interpolator::PoseInterpolator;
 use carrier::{Carried, Carrier};
-use giving::Giving;
+use contact_support::ContactSupport;
 use glam::{DMat3, DVec3};
-use leaning::Leaning;
-use passing::Passing;
+use impact_compliance::ImpactCompliance;
+use inertial_blend::InertialBlend;
 use ramp::Ramp;
+use self_collision::SelfCollision;
 use sinew_body::humanoid::{Body, Node, Pose, log};
 use sinew_world::{Drive, Pin, World};
-use slide::Slide;
-use way::Way;
+use transition::Transition;
 
 /// Follows wanted poses with forces on every part and torques in every joint.
 ///
@@ -82,7 +82,7 @@ pub struct KdTracker {
     joint_weights: [Ramp; Node::COUNT],
     largest_n: [f64; Node::COUNT],
     clock: Clock,
-    glide: Glide,
+    interpolator: PoseInterpolator,
     wanted: Pose,
     /// The wanted pose of the last step, before and after the slide.
     raw: Pose,
@@ -90,12 +90,12 @@ pub struct KdTracker {
     raw_velocity: DVec3,
     before: Instant,
     now: Instant,
-    way: Option<Way>,
+    way: Option<Transition>,
     start: Start,
     carrier: Option<Carrier>,
-    passing: Passing,
-    giving: Giving,
-    leaning: Leaning,
+    self_collision: SelfCollision,
+    impact_compliance: ImpactCompliance,
+    contact_support: ContactSupport,
 }
 
 /// What the next motion frame begins with.
@@ -118,7 +118,7 @@ const JUMP_SECS: f64 = 0.5;
 
 /// Largest force of a pin: of a part of a leg, and of another one \[weights of the body\]; times [`KdSettings::strength`]. A foot is
 /// held so firmly that it would lift whatever it is under.
-const MOST_WEIGHTS: [f64; 2] = [1.5, 4.0];
+const MAX_WEIGHTS: [f64; 2] = [1.5, 4.0];
 
 /// Friction of a joint that is not held, relative to the inertia of what hangs from it \[1/s\].
 const LIMP_DAMPING: f64 = 1.0;
@@ -129,7 +129,7 @@ impl KdTracker {
         let gains = settings.gains;
         let now = Instant::of(body, first);
         let strength_n = body.mass_kg() * 9.81 * settings.strength;
-        let most = |node: Node| strength_n * MOST_WEIGHTS[usize::from(!node.is_leg())];
+        let most = |node: Node| strength_n * MAX_WEIGHTS[usize::from(!node.is_leg())];
         KdTracker {
             joint_gain: [1.0; Node::COUNT],
             torque: [DVec3::ZERO; Node::COUNT],
@@ -141,7 +141,7 @@ impl KdTracker {
             settings,
             largest_n: Node::ALL.map(most),
             clock: Clock::new(time_step_secs),
-            glide: Glide::rest(first),
+            interpolator: PoseInterpolator::rest(first),
             wanted: *first,
             raw: *first,
             posed: *first,
@@ -151,21 +151,21 @@ impl KdTracker {
             way: None,
             start: Start::No,
             carrier: None,
-            passing: Passing::new(body),
-            giving: Giving::default(),
-            leaning: Leaning::default(),
+            self_collision: SelfCollision::new(body),
+            impact_compliance: ImpactCompliance::default(),
+            contact_support: ContactSupport::default(),
         }
     }
 
     /// Goes on from a motion that went from `before` to `now`, one motion frame apart, with steps of physics of this length \[s\].
     pub fn restart(&mut self, body: &Body, before: &Pose, now: &Pose, step_secs: f64) {
-        self.glide = Glide::rest(before);
-        self.glide.next(now);
+        self.interpolator = PoseInterpolator::rest(before);
+        self.interpolator.next(now);
         self.clock = Clock::new(self.clock.time_step_secs());
         (self.wanted, self.raw, self.posed) = (*now, *now, *now);
         self.now = Instant::of(body, now);
         let share = 1.0 - step_secs / self.clock.time_step_secs();
-        self.before = Instant::of(body, &self.glide.at(share));
+        self.before = Instant::of(body, &self.interpolator.at(share));
         self.raw_velocity = (now.hips_position - before.hips_position) / self.clock.time_step_secs();
         (self.way, self.start) = (None, Start::No);
     }
@@ -278,7 +278,7 @@ impl KdTracker {
             let Some(body) = world.body(character) else { return };
             self.begin_frame(body);
         }
-        let raw = self.glide.at(self.clock.advance(step_secs));
+        let raw = self.interpolator.at(self.clock.advance(step_secs));
         if let Start::FromBody(secs) = std::mem::replace(&mut self.start, Start::No) {
             self.slide_from_body(world, character, secs, step_secs);
         }
@@ -302,11 +302,11 @@ impl KdTracker {
         }
         let next = Instant::of(body, &posed);
         if begins && let Some(frame) = world.frame().characters.get(character) {
-            let masks = self.passing.look(&next, frame);
-            world.set_passing(character, masks);
+            let masks = self.self_collision.look(&next, frame);
+            world.set_passes_own(character, masks);
         }
         self.feel(world, character, step_secs);
-        world.set_footing(character, self.carrier.map(|carrier| carrier.prop()));
+        world.set_reaction_body(character, self.carrier.map(|carrier| carrier.prop()));
         self.hold(world, character, &next, progress, step_secs);
         self.before = self.now;
         self.now = next;
@@ -314,13 +314,14 @@ impl KdTracker {
 
     fn begin_frame(&mut self, body: &Body) {
         let pose = self.wanted;
-        if has_jumped(self.glide.end(), &pose) {
+        if has_jumped(self.interpolator.end(), &pose) {
             let velocity = self.raw_velocity;
-            self.way = Some(Way::Slide(Slide::between(body, &self.posed, &pose, velocity, JUMP_SECS)));
-            self.glide = Glide::rest(&pose);
+            self.way =
+                Some(Transition::InertialBlend(InertialBlend::between(body, &self.posed, &pose, velocity, JUMP_SECS)));
+            self.interpolator = PoseInterpolator::rest(&pose);
             (self.raw, self.raw_velocity) = (pose, DVec3::ZERO);
         }
-        self.glide.next(&pose);
+        self.interpolator.next(&pose);
     }
 
     /// The body is wanted where it is now, as it moves now.
@@ -334,7 +335,7 @@ impl KdTracker {
             pose.world = pose.world.map(|rotation| carried.rotation_back(rotation));
         }
         let Some(body) = world.body(character) else { return };
-        self.way = Some(Way::from_body(body, [&pose, &self.raw], [velocity, self.raw_velocity], over_secs));
+        self.way = Some(Transition::from_body(body, [&pose, &self.raw], [velocity, self.raw_velocity], over_secs));
         self.now = Instant::of(body, &pose);
         // It was where its velocity says: no force is fed forward to bring it up to the speed that it has.
         let mut before = pose;
@@ -346,14 +347,14 @@ impl KdTracker {
     fn feel(&mut self, world: &World, character: usize, step_secs: f64) {
         let is_held = self.pins.value() * self.carries.value() >= 1.0;
         match world.body(character).filter(|_| self.settings.yields && is_held) {
-            Some(body) => self.giving.feel(world, character, body.mass_kg(), step_secs),
-            None => self.giving.forget(),
+            Some(body) => self.impact_compliance.feel(world, character, body.mass_kg(), step_secs),
+            None => self.impact_compliance.forget(),
         }
         if self.settings.leans {
             let ground = self.carrier.map(|carrier| carrier.prop());
-            self.leaning.feel(world, character, ground, self.posed.hips_position.y);
+            self.contact_support.feel(world, character, ground, self.posed.hips_position.y);
         } else {
-            self.leaning.forget();
+            self.contact_support.forget();
         }
     }
 
@@ -362,7 +363,7 @@ impl KdTracker {
         let Some(outboard) = world.outboard_inertias(character).copied() else { return };
         let carried = self.carrier.and_then(|carrier| carrier.now(world));
         let [k_p, d_p, k_q, d_q] = self.gains.map(|gain| gain.value());
-        let (pins, carries) = (self.pins.value() * self.leaning.factor(), self.carries.value());
+        let (pins, carries) = (self.pins.value() * self.contact_support.factor(), self.carries.value());
         let is_relative = self.settings.damping == KdDamping::Relative;
         let mut spins = [DVec3::ZERO; Node::COUNT];
         let mut torques = [DVec3::ZERO; Node::COUNT];
@@ -387,7 +388,7 @@ impl KdTracker {
         for node in Node::ALL {
             let at = node.index();
             let weight = pins * self.pin_weights[at].value();
-            let (given_pin, given_joint) = self.giving.factors(node);
+            let (given_pin, given_joint) = self.impact_compliance.factors(node);
             let multiple = 1.0 + (KdGains::multiple(node) - 1.0) * progress;
             let factor = multiple * weight * given_pin;
             let (stiffness, damping) = (k_p * factor, d_p * factor.max(0.0).sqrt());
@@ -462,8 +463,8 @@ impl KdTracker {
     /// Lets all parts go.
     pub fn release(&self, world: &mut World, character: usize) {
         world.set_limp(character);
-        world.set_footing(character, None);
-        world.set_passing(character, [0; Node::COUNT]);
+        world.set_reaction_body(character, None);
+        world.set_passes_own(character, [0; Node::COUNT]);
     }
 }
 

@@ -9,7 +9,7 @@ const BIN: u32 = 0x004E_4942;
 
 /// More values than any rig needs; each costs tens of bytes once parsed, so a file of nothing but `[0,0,0,...` must
 /// stop here.
-const MOST_JSON_VALUES: usize = 2_000_000;
+const MAX_JSON_VALUES: usize = 2_000_000;
 /// glTF itself nests about ten deep; what `extras` hold may be deeper.
 const DEEPEST_JSON: usize = 100;
 
@@ -113,11 +113,11 @@ fn check_json(json: &[u8], offset: usize) -> Result<(), Error> {
             b',' => values += 1,
             _ => {}
         }
-        if depth > DEEPEST_JSON || values > MOST_JSON_VALUES {
+        if depth > DEEPEST_JSON || values > MAX_JSON_VALUES {
             let problem = if depth > DEEPEST_JSON {
                 format!("the JSON is nested more than {DEEPEST_JSON} deep")
             } else {
-                format!("the JSON holds more than {MOST_JSON_VALUES} values")
+                format!("the JSON holds more than {MAX_JSON_VALUES} values")
             };
             return Err(Error::new(Place::Byte((offset + at) as u64), problem, "export only the character"));
         }

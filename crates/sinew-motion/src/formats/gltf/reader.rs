@@ -19,7 +19,7 @@ const PACKED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"]
 /// Rate where the keys tell nothing \[Hz\].
 const DEFAULT_HZ: f64 = 60.0;
 /// Other animations named in the note.
-const MOST_NAMES: usize = 20;
+const MAX_NAMES: usize = 20;
 /// Frames that a file of few keys may still ask for, and how many more each key may: two keys an hour apart would
 /// otherwise turn a hundred bytes into a gigabyte.
 const FREE_FRAMES: usize = 20_000;
@@ -119,8 +119,8 @@ fn name_other_animations(root: &Root, notes: &mut Vec<Note>) {
         return;
     }
     let name = |animation: &super::schema::Animation| animation.name.clone().unwrap_or_else(|| "(no name)".into());
-    let mut list = others.iter().take(MOST_NAMES).map(name).collect::<Vec<_>>().join(", ");
-    if others.len() > MOST_NAMES {
+    let mut list = others.iter().take(MAX_NAMES).map(name).collect::<Vec<_>>().join(", ");
+    if others.len() > MAX_NAMES {
         list.push_str(", ...");
     }
     notes.push(Note::new(format!(

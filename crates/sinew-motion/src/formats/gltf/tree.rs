@@ -7,7 +7,7 @@ use crate::Error;
 const EXPORT_AGAIN: &str = "the file is damaged or its exporter is wrong: export it again";
 
 /// Skins joined to the first one are looked for this many times over; each round adds at least one.
-const MOST_ROUNDS: usize = 16;
+const MAX_ROUNDS: usize = 16;
 
 /// The nodes as the strict forest that glTF 2.0 section 3.5.2 demands.
 pub(super) struct Tree {
@@ -85,7 +85,7 @@ pub(super) fn joints(root: &Root, tree: &Tree, animated: &[bool]) -> Result<Vec<
     };
     first.joints.iter().for_each(|&joint| chosen[joint] = true);
     let mut waiting: Vec<_> = rest.iter().collect();
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let (above, below) = (tree.at_or_above(&chosen), tree.at_or_below(&chosen));
         let before = waiting.len();
         waiting.retain(|skin| {

@@ -24,15 +24,15 @@ struct Capsule {
 
 /// Which pairs pass now.
 #[derive(Clone, Debug)]
-pub(super) struct Passing {
+pub(super) struct SelfCollision {
     capsules: [Capsule; Node::COUNT],
     pairs: Vec<(usize, usize)>,
     /// By part, a bit for every part that it passes through.
     masks: [u32; Node::COUNT],
 }
 
-impl Passing {
-    pub(super) fn new(body: &Body) -> Passing {
+impl SelfCollision {
+    pub(super) fn new(body: &Body) -> SelfCollision {
         let never = never_collide(body);
         let mut pairs = Vec::new();
         for one in Node::ALL {
@@ -43,7 +43,7 @@ impl Passing {
                 }
             }
         }
-        Passing { capsules: Node::ALL.map(|node| capsule(body, node)), pairs, masks: [0; Node::COUNT] }
+        SelfCollision { capsules: Node::ALL.map(|node| capsule(body, node)), pairs, masks: [0; Node::COUNT] }
     }
 
     /// Looks at a wanted pose and at the body; the masks of all parts.

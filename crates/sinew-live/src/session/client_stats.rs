@@ -8,7 +8,7 @@ use std::time::Instant;
 
 /// What a client has received. Its size does not grow with the session's length.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Tally {
+pub struct ClientStats {
     /// Frames that arrived.
     pub frames: u64,
     /// Of these, those that arrived after a later one.
@@ -30,11 +30,11 @@ pub struct Tally {
     /// The round trip as the connection sees it now \[ms\].
     pub round_trip_ms: f64,
     /// [`Frame::hash`] of received frames by their step, in hexadecimal: of every step that is a multiple of
-    /// [`Tally::HASH_STEPS`], the last [`Tally::MOST_HASHES`] of them.
+    /// [`ClientStats::HASH_STEPS`], the last [`ClientStats::MAX_HASHES`] of them.
     pub hashes: BTreeMap<u64, String>,
-    /// What was sent, with the step of the newest frame then: the last [`Tally::MOST_SENT`].
+    /// What was sent, with the step of the newest frame then: the last [`ClientStats::MAX_SENT`].
     pub sent: Vec<SentOrder>,
-    /// What the server did not pass on, with its reason: the last [`Tally::MOST_SENT`].
+    /// What the server did not pass on, with its reason: the last [`ClientStats::MAX_SENT`].
     pub not_passed: Vec<String>,
     /// When the newest frame arrived.
     #[serde(skip)]
@@ -52,13 +52,13 @@ pub struct SentOrder {
     pub since_ms: f64,
 }
 
-impl Tally {
+impl ClientStats {
     /// Every so many steps a hash is kept.
     pub const HASH_STEPS: u64 = 60;
     /// Hashes that are kept.
-    pub const MOST_HASHES: usize = 10_000;
+    pub const MAX_HASHES: usize = 10_000;
     /// Sent orders that are kept.
-    pub const MOST_SENT: usize = 1_000;
+    pub const MAX_SENT: usize = 1_000;
 
     /// Takes a frame down. Returns whether it is newer than all before.
     pub(super) fn note(&mut self, frame: &Frame, said: u64, bytes: usize) -> bool {
@@ -91,16 +91,16 @@ impl Tally {
 
 /// Keeps a hash if its step is one whose hashes are kept: of server and clients the same.
 pub fn note_hash(hashes: &mut BTreeMap<u64, String>, step: u64, hash: u64) {
-    if step.is_multiple_of(Tally::HASH_STEPS) {
+    if step.is_multiple_of(ClientStats::HASH_STEPS) {
         hashes.insert(step, format!("{hash:016x}"));
-        if hashes.len() > Tally::MOST_HASHES {
+        if hashes.len() > ClientStats::MAX_HASHES {
             hashes.pop_first();
         }
     }
 }
 
 fn push_last<T>(list: &mut Vec<T>, one: T) {
-    if list.len() >= Tally::MOST_SENT {
+    if list.len() >= ClientStats::MAX_SENT {
         list.remove(0);
     }
     list.push(one);

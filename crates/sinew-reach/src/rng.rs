@@ -2,12 +2,12 @@
 
 /// A generator of random numbers: SplitMix64 (Steele, Lea, Flood 2014).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Dice(u64);
+pub struct Rng(u64);
 
-impl Dice {
+impl Rng {
     /// Begins with a seed.
-    pub fn new(seed: u64) -> Dice {
-        Dice(seed ^ 0x5EED_0F5E_ED00_0001)
+    pub fn new(seed: u64) -> Rng {
+        Rng(seed ^ 0x5EED_0F5E_ED00_0001)
     }
 
     fn bits(&mut self) -> u64 {

@@ -7,7 +7,7 @@ use sinew_world::Entity;
 
 /// What ends.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Ending {
+pub enum Expiry {
     /// Forces on a part are switched on again.
     ForcesOff(usize, Node),
     /// A character is freed from its plane.
@@ -45,10 +45,10 @@ pub struct LastingPush {
     pub until_step: u64,
 }
 
-/// Spans that are under way.
+/// TimedEffects that are under way.
 #[derive(Clone, Debug, Default)]
-pub struct Spans {
-    endings: Vec<(u64, Ending)>,
+pub struct TimedEffects {
+    endings: Vec<(u64, Expiry)>,
     /// Forces that act now.
     pub pushes: Vec<LastingPush>,
     /// Factors on gravity that are on their way.
@@ -56,11 +56,11 @@ pub struct Spans {
 }
 
 /// Pushes that act at the same time; further ones are refused.
-pub const MOST_PUSHES: usize = 1000;
+pub const MAX_PUSHES: usize = 1000;
 
-impl Spans {
+impl TimedEffects {
     /// Something ends at a step. What ended it before no longer counts: the newest command wins.
-    pub fn end_at(&mut self, step: Option<u64>, ending: Ending) {
+    pub fn end_at(&mut self, step: Option<u64>, ending: Expiry) {
         self.endings.retain(|(_, other)| *other != ending);
         if let Some(step) = step {
             self.endings.push((step, ending));
@@ -68,7 +68,7 @@ impl Spans {
     }
 
     /// What ends at or before a step, in the order in which it was begun.
-    pub fn take_due(&mut self, step: u64) -> Vec<Ending> {
+    pub fn take_due(&mut self, step: u64) -> Vec<Expiry> {
         if self.endings.iter().all(|(at, _)| *at > step) {
             return Vec::new();
         }

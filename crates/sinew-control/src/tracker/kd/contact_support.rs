@@ -26,7 +26,7 @@ const RISE_SECS: f64 = 0.5;
 
 /// How far something other than the ground bears a body.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Leaning {
+pub(super) struct ContactSupport {
     /// Upward force of what is no ground, smoothed \[N\].
     force_n: f64,
     share: f64,
@@ -34,7 +34,7 @@ pub(super) struct Leaning {
     low_m: Option<f64>,
 }
 
-impl Leaning {
+impl ContactSupport {
     /// Feels what bore the body in the world's last step. `ground`: a prop that counts as such; `hips_m`: height of the wanted hips.
     pub(super) fn feel(&mut self, world: &World, character: usize, ground: Option<usize>, hips_m: f64) {
         let step_secs = world.settings().step_secs();
@@ -52,7 +52,7 @@ impl Leaning {
 
     /// Feels nothing any more.
     pub(super) fn forget(&mut self) {
-        *self = Leaning::default();
+        *self = ContactSupport::default();
     }
 
     /// Factor on the weight of all pins.

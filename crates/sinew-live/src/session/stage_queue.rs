@@ -1,7 +1,7 @@
 //! The stage's side of a session. It runs on the stage's own thread and never waits for anybody.
 
 use super::frame_code::encode_frame;
-use super::limits::MOST_ORDERS_OF_STEP;
+use super::limits::MAX_ORDERS_OF_STEP;
 use sinew_control::Command;
 use sinew_world::Frame;
 use std::sync::Arc;
@@ -98,7 +98,7 @@ pub(super) fn count(one: &AtomicU64) {
 pub(super) type Sent = Arc<Vec<u8>>;
 
 /// Where the stage takes orders and hands out frames.
-pub struct Desk {
+pub struct StageQueue {
     pub(super) orders: Receiver<Placed>,
     pub(super) frames: watch::Sender<Sent>,
     pub(super) shared: Arc<Shared>,
@@ -107,17 +107,17 @@ pub struct Desk {
 }
 
 /// Buffers that are kept.
-const MOST_BUFFERS: usize = 256;
+const MAX_BUFFERS: usize = 256;
 
-impl Desk {
-    /// The next order, if one waits. A step should take no more than [`MOST_ORDERS_OF_STEP`].
+impl StageQueue {
+    /// The next order, if one waits. A step should take no more than [`MAX_ORDERS_OF_STEP`].
     pub fn next_order(&mut self) -> Option<Placed> {
         self.orders.try_recv().ok()
     }
 
     /// Orders for the next step, in the order of their arrival.
     pub fn orders_of_step(&mut self) -> impl Iterator<Item = Placed> {
-        self.orders.try_iter().take(MOST_ORDERS_OF_STEP)
+        self.orders.try_iter().take(MAX_ORDERS_OF_STEP)
     }
 
     /// Says how far the stage is; with a frame to send, everybody gets it.
@@ -127,7 +127,7 @@ impl Desk {
             bytes.clear();
             encode_frame(frame, bytes);
         }
-        if self.buffers.len() < MOST_BUFFERS {
+        if self.buffers.len() < MAX_BUFFERS {
             self.buffers.push(Arc::clone(&buffer));
         }
         self.frames.send_replace(buffer);

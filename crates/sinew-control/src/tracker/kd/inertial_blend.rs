@@ -8,7 +8,7 @@ use sinew_world::hips_over_soles_m;
 /// What lies between the pose that a body has and the one that is wanted, and dies out: added to the wanted pose, it begins where
 /// the body is and ends where it is wanted, however that moves meanwhile.
 #[derive(Clone, Debug)]
-pub(super) struct Slide {
+pub(super) struct InertialBlend {
     shift: DVec3,
     /// How fast the shift grows at first \[m/s\].
     drift: DVec3,
@@ -27,7 +27,7 @@ pub(super) struct Slide {
 const DRIFT_SECS: f64 = 0.4;
 
 /// A body is moved no faster than this; a longer way takes longer \[m/s\].
-const MOST_M_S: f64 = 2.0;
+const MAX_M_S: f64 = 2.0;
 
 /// The steepest slope of what fades.
 const STEEPEST: f64 = 1.875;
@@ -35,9 +35,9 @@ const STEEPEST: f64 = 1.875;
 /// A body is lifted off the floor this smoothly \[s\].
 const LIFT_SECS: f64 = 0.03;
 
-impl Slide {
+impl InertialBlend {
     /// From one pose to another, with the velocity of one's hips against the other's \[m/s\].
-    pub(super) fn between(body: &Body, from: &Pose, to: &Pose, drift: DVec3, over_secs: f64) -> Slide {
+    pub(super) fn between(body: &Body, from: &Pose, to: &Pose, drift: DVec3, over_secs: f64) -> InertialBlend {
         let mut bends = [DVec3::ZERO; Node::COUNT];
         for node in Node::ALL.into_iter().skip(1) {
             bends[node.index()] = log((to.local(node).conjugate() * from.local(node)).normalize());
@@ -46,8 +46,8 @@ impl Slide {
         let turn = log((from.world[0] * to.world[0].conjugate()).normalize());
         // Head and feet go about as far as the body turns, times its half.
         let way_m = shift.length() + turn.length() * body.stature_m() / 2.0;
-        let over_secs = over_secs.max(STEEPEST * way_m / MOST_M_S);
-        Slide { shift, drift, turn, bends, sole_m: sole_m(body, from), lift_m: 0.0, gone_secs: 0.0, over_secs }
+        let over_secs = over_secs.max(STEEPEST * way_m / MAX_M_S);
+        InertialBlend { shift, drift, turn, bends, sole_m: sole_m(body, from), lift_m: 0.0, gone_secs: 0.0, over_secs }
     }
 
     /// A step goes by; the wanted pose with what is left of the way at its end.

@@ -2,16 +2,16 @@
 
 use crate::engine::untag;
 use crate::frame::{BodyState, CharacterFrame, Contact, Entity};
-use crate::sound::is_place;
+use crate::sanitize::is_place;
 use crate::support::keep_hull;
-use crate::{Spent, World, ragdoll};
+use crate::{ExternalForces, World, ragdoll};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
 /// Buffers that a step reuses.
 #[derive(Default)]
-pub(crate) struct Watch {
+pub(crate) struct Readback {
     touching_before: Vec<(Entity, Entity)>,
     /// Points that characters stand on: character, point.
     standing: Vec<(usize, DVec3)>,
@@ -23,10 +23,10 @@ const CARRYING: f64 = 0.5;
 
 impl World {
     /// Brings what was added into the frame; what was there before stays as the last step left it.
-    pub(crate) fn look_at_new(&mut self) {
+    pub(crate) fn read_back_new(&mut self) {
         while self.frame.characters.len() < self.characters.len() {
             self.frame.characters.push(CharacterFrame::EMPTY);
-            self.look_at_character(self.frame.characters.len() - 1);
+            self.read_back_character(self.frame.characters.len() - 1);
         }
         while self.frame.props.len() < self.props.len() {
             self.frame.props.push(BodyState::REST);
@@ -37,7 +37,7 @@ impl World {
     /// Reads the frame.
     pub(crate) fn look(&mut self) {
         for index in 0..self.characters.len() {
-            self.look_at_character(index);
+            self.read_back_character(index);
         }
         for index in 0..self.props.len() {
             self.look_at_prop(index);
@@ -48,7 +48,7 @@ impl World {
         }
     }
 
-    pub(crate) fn look_at_character(&mut self, index: usize) {
+    pub(crate) fn read_back_character(&mut self, index: usize) {
         let character = &self.characters[index];
         let sound = character
             .bodies
@@ -120,10 +120,10 @@ impl World {
 
     fn look_at_contacts(&mut self) {
         let contacts = &mut self.frame.contacts;
-        self.watch.touching_before.clear();
-        self.watch.touching_before.extend(contacts.iter().map(|contact| (contact.a, contact.b)));
+        self.readback.touching_before.clear();
+        self.readback.touching_before.extend(contacts.iter().map(|contact| (contact.a, contact.b)));
         contacts.clear();
-        self.watch.standing.clear();
+        self.readback.standing.clear();
         let entity = |handle: ColliderHandle| untag(self.engine.colliders.get(handle)?.user_data);
         for pair in self.engine.narrow_phase.contact_pairs() {
             if !pair.has_any_active_contact() {
@@ -150,10 +150,10 @@ impl World {
                     match (first, second) {
                         (Entity::Part(one, _), Entity::Part(other, _)) if one == other => {}
                         (_, Entity::Part(character, _)) if upright > CARRYING => {
-                            self.watch.standing.push((character, world));
+                            self.readback.standing.push((character, world));
                         }
                         (Entity::Part(character, _), _) if upright < -CARRYING => {
-                            self.watch.standing.push((character, world));
+                            self.readback.standing.push((character, world));
                         }
                         _ => {}
                     }
@@ -182,13 +182,13 @@ impl World {
         }
         contacts.sort_by(|x, y| (x.a, x.b).cmp(&(y.a, y.b)).then(x.point.x.total_cmp(&y.point.x)));
         for contact in contacts.iter_mut() {
-            contact.begins = self.watch.touching_before.binary_search(&(contact.a, contact.b)).is_err();
+            contact.begins = self.readback.touching_before.binary_search(&(contact.a, contact.b)).is_err();
         }
         for (index, character) in self.frame.characters.iter_mut().enumerate() {
             character.support.clear();
-            let points = self.watch.standing.iter().filter(|(owner, _)| *owner == index).map(|(_, point)| *point);
+            let points = self.readback.standing.iter().filter(|(owner, _)| *owner == index).map(|(_, point)| *point);
             character.support.extend(points);
-            keep_hull(&mut character.support, &mut self.watch.hull);
+            keep_hull(&mut character.support, &mut self.readback.hull);
         }
     }
 
@@ -262,7 +262,7 @@ impl CharacterFrame {
         centre_velocity: DVec3::ZERO,
         facing: DVec3::Z,
         support: Vec::new(),
-        spent: [Spent::NONE; Node::COUNT],
+        external: [ExternalForces::NONE; Node::COUNT],
         was_reset: false,
     };
 }

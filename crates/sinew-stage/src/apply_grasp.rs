@@ -1,7 +1,7 @@
 //! Commands that take hold of things and let them go.
 
 use crate::Stage;
-use crate::obey::number;
+use crate::apply_command::number;
 use sinew_body::humanoid::Node;
 use sinew_control::Action;
 use sinew_control::graph::Touchable;
@@ -12,7 +12,7 @@ const REACH_M: f64 = 0.15;
 
 impl Stage {
     /// What was done, in words; `None` when it was so already.
-    pub(crate) fn obey_grasp(&mut self, character: usize, action: &Action) -> Result<Option<String>, String> {
+    pub(crate) fn apply_grasp(&mut self, character: usize, action: &Action) -> Result<Option<String>, String> {
         let who = self.cast.characters()[character].clone();
         match action {
             Action::Attach { link, object, soft, break_n } => {

@@ -7,7 +7,7 @@ use sinew_world::{Entity, Frame, World};
 
 /// Impulses on the parts of a character since the motion frame began.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Felt {
+pub(crate) struct ContactForces {
     /// By [`Node::index`].
     parts: [Touch; Node::COUNT],
 }
@@ -22,7 +22,7 @@ struct Touch {
     moment: DVec3,
 }
 
-impl Felt {
+impl ContactForces {
     /// Adds what the world's last step did to a character. Floor, ground prop, own parts and what the character holds do
     /// not count: the wanted motion stands on the ones and carries the others already.
     pub(crate) fn add(&mut self, world: &World, character: usize, ground: Option<usize>) {

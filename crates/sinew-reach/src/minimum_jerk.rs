@@ -14,8 +14,8 @@ impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T> + Partia
 /// continuous at both ends. From rest to rest that is the minimum-jerk profile of human reaching (Flash, Hogan 1985).
 ///
 /// ```
-/// use sinew_reach::Glide;
-/// let mut turn = Glide::rest(0.0);
+/// use sinew_reach::MinimumJerk;
+/// let mut turn = MinimumJerk::rest(0.0);
 /// turn.go(0.0, 1.0, 0.0, 2.0);
 /// assert_eq!(turn.at(1.0), 0.5);
 /// // Somewhere else, in the middle of the way: nothing jumps.
@@ -25,7 +25,7 @@ impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T> + Partia
 /// assert_eq!(turn.at(2.0), -1.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Glide<T> {
+pub struct MinimumJerk<T> {
     from_secs: f64,
     for_secs: f64,
     /// Of the powers of the share of the time that has passed.
@@ -35,17 +35,17 @@ pub struct Glide<T> {
     early: bool,
 }
 
-impl<T: Value> Glide<T> {
+impl<T: Value> MinimumJerk<T> {
     /// It stays.
-    pub fn rest(value: T) -> Glide<T> {
+    pub fn rest(value: T) -> MinimumJerk<T> {
         let mut factors = [T::default(); 6];
         factors[0] = value;
-        Glide { from_secs: 0.0, for_secs: 0.0, factors, goal: value, early: false }
+        MinimumJerk { from_secs: 0.0, for_secs: 0.0, factors, goal: value, early: false }
     }
 
     /// It starts with a velocity \[1/s\] and comes to `goal` after `for_secs`.
-    pub fn moving(now: f64, value: T, velocity: T, goal: T, for_secs: f64) -> Glide<T> {
-        Glide::between(now, for_secs, value, velocity, T::default(), goal)
+    pub fn moving(now: f64, value: T, velocity: T, goal: T, for_secs: f64) -> MinimumJerk<T> {
+        MinimumJerk::between(now, for_secs, value, velocity, T::default(), goal)
     }
 
     /// Goes to `goal` in `for_secs` \[s\], beginning `after_secs` from `now`; what is moving already begins at once and arrives at
@@ -54,10 +54,10 @@ impl<T: Value> Glide<T> {
         let (velocity, acceleration) = (self.velocity(now), self.acceleration(now));
         let is_moving = velocity != T::default() || acceleration != T::default();
         let (from, lasts) = if is_moving { (now, after_secs + for_secs) } else { (now + after_secs, for_secs) };
-        *self = Glide::between(from, lasts, self.at(now), velocity, acceleration, goal);
+        *self = MinimumJerk::between(from, lasts, self.at(now), velocity, acceleration, goal);
     }
 
-    /// As [`Glide::go`], of something at rest faster in the first half and slower for longer at the end, as people's hands are: the
+    /// As [`MinimumJerk::go`], of something at rest faster in the first half and slower for longer at the end, as people's hands are: the
     /// same polynomial in a time that runs fast first, u becoming 1 − (1 − u)^1.5. It is fastest after a third of the time, at 2.26
     /// of its mean speed.
     pub fn go_early(&mut self, now: f64, goal: T, after_secs: f64, for_secs: f64) {
@@ -72,7 +72,14 @@ impl<T: Value> Glide<T> {
     }
 
     /// From a value, velocity and acceleration at a time \[s\] to rest at `goal` after `for_secs`.
-    pub(crate) fn between(from_secs: f64, for_secs: f64, value: T, velocity: T, acceleration: T, goal: T) -> Glide<T> {
+    pub(crate) fn between(
+        from_secs: f64,
+        for_secs: f64,
+        value: T,
+        velocity: T,
+        acceleration: T,
+        goal: T,
+    ) -> MinimumJerk<T> {
         let for_secs = for_secs.max(SHORTEST_SECS);
         let (way, v, a) = (goal - value, velocity * for_secs, acceleration * (for_secs * for_secs));
         let factors = [
@@ -83,7 +90,7 @@ impl<T: Value> Glide<T> {
             v * 8.0 - way * 15.0 + a * 1.5,
             way * 6.0 - v * 3.0 - a * 0.5,
         ];
-        Glide { from_secs, for_secs, factors, goal, early: false }
+        MinimumJerk { from_secs, for_secs, factors, goal, early: false }
     }
 
     /// Where it goes.

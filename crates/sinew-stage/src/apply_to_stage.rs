@@ -1,15 +1,15 @@
 //! What commands do that concern the stage, its props and their joints.
 
 use crate::Stage;
+use crate::apply_command::{number, over, vector};
 use crate::fade::Weighs;
-use crate::obey::{number, over, vector};
 use crate::scene::aim;
-use crate::span::Ending;
+use crate::timed_effect::Expiry;
 use sinew_control::Action;
 use sinew_world::{Entity, Motor};
 
 impl Stage {
-    pub(crate) fn obey_on_stage(&mut self, action: &Action) -> Result<Option<String>, String> {
+    pub(crate) fn apply_to_stage(&mut self, action: &Action) -> Result<Option<String>, String> {
         let effect = match action {
             Action::Place { object, position_m, velocity_m_s } => {
                 let prop = self.prop(object)?;
@@ -23,7 +23,7 @@ impl Stage {
                 let acceleration = vector(*acceleration_m_s2, "acceleration_m_s2")?;
                 let until = self.until(Some(*for_secs))?;
                 self.world.accelerate_prop(prop, acceleration);
-                self.spans.end_at(until, Ending::Acceleration(prop));
+                self.timed_effects.end_at(until, Expiry::Acceleration(prop));
                 format!("{object} is accelerated by {:.2} m/s² for {for_secs:.2} s", acceleration.length())
             }
             Action::Push { on, force_n, for_secs, at_m, .. } => {
@@ -40,7 +40,7 @@ impl Stage {
                 let over_secs = over_secs.map(|secs| number(secs, "over_secs")).transpose()?;
                 let until = self.until(*for_secs)?;
                 self.weigh(&[Weighs::Prop(prop)], scale, over_secs);
-                self.spans.end_at(until, Ending::PropGravity(prop));
+                self.timed_effects.end_at(until, Expiry::PropGravity(prop));
                 format!("{on}: gravity times {scale}{}", over(over_secs))
             }
             Action::Motor { joint: name, speed_rad_s, angle_deg, speed_m_s, shift_m } => {

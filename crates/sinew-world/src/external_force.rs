@@ -8,7 +8,7 @@ use sinew_body::humanoid::Node;
 
 /// Force, torque and power of something on a part in a step, world axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Effort {
+pub struct ExternalForce {
     /// \[N\], at the part's centre of mass.
     pub force: DVec3,
     /// \[N m\], about it.
@@ -17,9 +17,9 @@ pub struct Effort {
     pub power_w: f64,
 }
 
-impl Effort {
+impl ExternalForce {
     /// Nothing.
-    pub const NONE: Effort = Effort { force: DVec3::ZERO, torque: DVec3::ZERO, power_w: 0.0 };
+    pub const NONE: ExternalForce = ExternalForce { force: DVec3::ZERO, torque: DVec3::ZERO, power_w: 0.0 };
 
     fn add(&mut self, force: DVec3, torque: DVec3, velocity: DVec3, spin: DVec3) {
         self.force += force;
@@ -30,17 +30,17 @@ impl Effort {
 
 /// What a part was given that no muscle and no contact gave it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spent {
+pub struct ExternalForces {
     /// By its [`Pin`](crate::Pin), the weight that it carries included.
-    pub pin: Effort,
+    pub pin: ExternalForce,
     /// By whatever else holds it from outside: physics switched off on it, a plane, an attachment to the ground or to a prop that
     /// physics does not move. A plane's torques are not counted; they do no work.
-    pub held: Effort,
+    pub held: ExternalForce,
 }
 
-impl Spent {
+impl ExternalForces {
     /// Nothing.
-    pub const NONE: Spent = Spent { pin: Effort::NONE, held: Effort::NONE };
+    pub const NONE: ExternalForces = ExternalForces { pin: ExternalForce::NONE, held: ExternalForce::NONE };
 }
 
 /// What is known of a part before a step.
@@ -58,7 +58,7 @@ impl World {
         let step_secs = self.settings.step_secs();
         let sub_step_secs = step_secs / self.engine.parameters.num_solver_iterations as f64;
         let character = &self.characters[index];
-        let mut spent = [Spent::NONE; Node::COUNT];
+        let mut spent = [ExternalForces::NONE; Node::COUNT];
         for node in Node::ALL {
             let at = node.index();
             let Some(body) = self.engine.bodies.get(character.bodies[at]) else { continue };
@@ -96,7 +96,7 @@ impl World {
             let Some(body) = self.engine.bodies.get(character.bodies[node.index()]) else { continue };
             spent[node.index()].held.add(force, torque, body.linvel(), body.angvel());
         }
-        self.frame.characters[index].spent = spent;
+        self.frame.characters[index].external = spent;
     }
 
     /// Force and torque of whatever moves a part that physics does not: what its motion takes beyond weight, joints and contacts.

@@ -7,14 +7,14 @@ use sinew_body::humanoid::Node;
 
 /// Tells the library which parts pass through what.
 #[derive(Default)]
-pub(crate) struct Passing {
+pub(crate) struct CollisionFilter {
     /// By character and part: a bit for each of its own parts that it passes through.
     pub own: Vec<[u32; Node::COUNT]>,
     /// Characters' parts and the props that they pass through.
     pub props: Vec<(usize, Node, usize)>,
 }
 
-impl Passing {
+impl CollisionFilter {
     /// Whether a part passes through anything.
     fn asks(&self, character: usize, node: Node) -> bool {
         self.own.get(character).is_some_and(|masks| masks[node.index()] != 0)
@@ -22,7 +22,7 @@ impl Passing {
     }
 }
 
-impl PhysicsHooks for Passing {
+impl PhysicsHooks for CollisionFilter {
     fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
         let entity = |handle: ColliderHandle| untag(context.colliders.get(handle)?.user_data);
         match (entity(context.collider1), entity(context.collider2)) {
@@ -44,8 +44,8 @@ impl PhysicsHooks for Passing {
 impl World {
     /// Which of its own parts pass through each other instead of colliding: by [`Node::index`], a bit for each other part; pairs
     /// are named from both sides.
-    pub fn set_passing(&mut self, character: usize, masks: [u32; Node::COUNT]) {
-        let Some(passing) = self.engine.passing.own.get_mut(character) else { return };
+    pub fn set_passes_own(&mut self, character: usize, masks: [u32; Node::COUNT]) {
+        let Some(passing) = self.engine.collision_filter.own.get_mut(character) else { return };
         let before = std::mem::replace(passing, masks);
         for node in Node::ALL {
             if (before[node.index()] == 0) != (masks[node.index()] == 0) {
@@ -56,8 +56,8 @@ impl World {
 
     /// A part passes through a prop from now on, or pushes it again, once one of the two moves. The two go on touching in the [`Frame`](crate::Frame). It is
     /// for hands: they have no fingers that close around what they reach for.
-    pub fn set_passing_prop(&mut self, character: usize, node: Node, prop: usize, on: bool) {
-        let props = &mut self.engine.passing.props;
+    pub fn set_passes_prop(&mut self, character: usize, node: Node, prop: usize, on: bool) {
+        let props = &mut self.engine.collision_filter.props;
         let pair = (character, node, prop);
         match props.iter().position(|other| *other == pair) {
             None if on => props.push(pair),
@@ -69,7 +69,7 @@ impl World {
 
     /// The library looks at every contact of a part that asks first anew in each step: only those ask that must.
     fn let_ask(&mut self, character: usize, node: Node) {
-        let asks = self.engine.passing.asks(character, node);
+        let asks = self.engine.collision_filter.asks(character, node);
         let Some(one) = self.characters.get(character) else { return };
         if let Some(collider) = self.engine.colliders.get_mut(one.colliders[node.index()]) {
             let hooks = if asks { ActiveHooks::FILTER_CONTACT_PAIRS } else { ActiveHooks::empty() };

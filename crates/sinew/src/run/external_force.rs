@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 use sinew_body::humanoid::Node;
-use sinew_world::{CharacterFrame, Effort, Spent};
+use sinew_world::{CharacterFrame, ExternalForce, ExternalForces};
 use std::collections::BTreeMap;
 
 /// Force and power of a helper over a run. Keys carry their units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct SpentReport {
+pub struct ExternalForceReport {
     /// Mean size of its force \[N\].
     pub force_mean_n: f64,
     /// Largest size of its force in a step \[N\].
@@ -24,11 +24,11 @@ pub struct SpentReport {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Meter {
     steps: u64,
-    parts: [SpentReport; Node::COUNT],
-    all: SpentReport,
+    parts: [ExternalForceReport; Node::COUNT],
+    all: ExternalForceReport,
 }
 
-impl SpentReport {
+impl ExternalForceReport {
     fn add(&mut self, force_n: f64, power_w: f64, step_secs: f64) {
         self.force_mean_n += force_n;
         self.force_peak_n = self.force_peak_n.max(force_n);
@@ -37,7 +37,7 @@ impl SpentReport {
         self.work_j += power_w * step_secs;
     }
 
-    fn over(mut self, steps: u64) -> SpentReport {
+    fn over(mut self, steps: u64) -> ExternalForceReport {
         self.force_mean_n /= steps.max(1) as f64;
         self.power_mean_w /= steps.max(1) as f64;
         self
@@ -46,10 +46,10 @@ impl SpentReport {
 
 impl Meter {
     /// Adds a step; `of` says which helper is meant.
-    pub fn watch(&mut self, character: &CharacterFrame, step_secs: f64, of: impl Fn(&Spent) -> Effort) {
+    pub fn watch(&mut self, character: &CharacterFrame, step_secs: f64, of: impl Fn(&ExternalForces) -> ExternalForce) {
         self.steps += 1;
         let (mut forces_n, mut powers_w) = (0.0, 0.0);
-        for (part, spent) in self.parts.iter_mut().zip(&character.spent) {
+        for (part, spent) in self.parts.iter_mut().zip(&character.external) {
             let effort = of(spent);
             let force_n = effort.force.length();
             part.add(force_n, effort.power_w, step_secs);
@@ -60,7 +60,7 @@ impl Meter {
     }
 
     /// By the names of parts.
-    pub fn report(&self) -> BTreeMap<String, SpentReport> {
+    pub fn report(&self) -> BTreeMap<String, ExternalForceReport> {
         let parts = Node::ALL.into_iter().map(|node| (node.part().name().to_owned(), self.parts[node.index()]));
         let all = std::iter::once(("all".to_owned(), self.all));
         all.chain(parts)

@@ -1,15 +1,15 @@
 //! What a character's pins push off from: nothing, or a prop that gets the opposite of what they give the body.
 
 use crate::World;
-use crate::effort::Before;
 use crate::engine::Engine;
+use crate::external_force::Before;
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
 /// A prop, and what the pins do to it.
 #[derive(Clone, Copy)]
-pub(crate) struct Footing {
+pub(crate) struct ReactionBody {
     prop: RigidBodyHandle,
     /// Force of the pins on the body, and torque about the prop's centre of mass, as far as the prop feels them by now.
     force: DVec3,
@@ -22,16 +22,16 @@ impl World {
     ///
     /// The prop feels them a few steps late: by the ratio of the body's mass, and of its moment of inertia about the prop, to the
     /// prop's own. Pins take no account of how a light prop gives way under them, and would shake it.
-    pub fn set_footing(&mut self, character: usize, prop: Option<usize>) {
+    pub fn set_reaction_body(&mut self, character: usize, prop: Option<usize>) {
         let handle = prop.and_then(|prop| Some(self.props.get(prop)?.handle));
         let Some(character) = self.characters.get_mut(character) else { return };
-        if character.footing.map(|footing| footing.prop) != handle {
-            character.footing = handle.map(|prop| Footing { prop, force: DVec3::ZERO, torque: DVec3::ZERO });
+        if character.reaction_body.map(|reaction_body| reaction_body.prop) != handle {
+            character.reaction_body = handle.map(|prop| ReactionBody { prop, force: DVec3::ZERO, torque: DVec3::ZERO });
         }
     }
 }
 
-impl Footing {
+impl ReactionBody {
     /// Gives the prop what it gets in the next step.
     pub fn press(&mut self, engine: &mut Engine, parts: &[RigidBodyHandle; Node::COUNT], pins: &[Before; Node::COUNT]) {
         let Some(prop) = engine.bodies.get(self.prop).filter(|prop| prop.is_dynamic()) else { return };

@@ -1,8 +1,8 @@
-//! A stage and its desk: what happens around each step of a session.
+//! A stage and its queue: what happens around each step of a session.
 
-use super::desk::{Desk, Order, Placed};
-use super::limits::MOST_SCENE;
-use super::server::Playbill;
+use super::limits::MAX_SCENE;
+use super::server::SceneManifest;
+use super::stage_queue::{Order, Placed, StageQueue};
 use super::{SessionError, note_hash};
 use sinew_control::{Action, Command};
 use sinew_stage::take::{Take, TakeFile};
@@ -11,28 +11,28 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-impl Playbill {
+impl SceneManifest {
     /// What has to be told of a scene.
     ///
     /// # Errors
     /// A scene whose files are too large to be sent.
-    pub fn of(scene: &Scene) -> Result<Playbill, SessionError> {
+    pub fn of(scene: &Scene) -> Result<SceneManifest, SessionError> {
         let mut take = Take::of(scene);
         // A take may leave large files to the disk; here there is none on the other side.
         for (path, held) in scene.files() {
             take.files.insert(path.clone(), TakeFile { hash: held.hash, bytes: Some(Arc::clone(&held.bytes)) });
         }
         let bytes = take.to_bytes().map_err(|error| SessionError::Machine(error.to_string()))?;
-        if bytes.len() > MOST_SCENE {
+        if bytes.len() > MAX_SCENE {
             let problem =
-                format!("the scene and its files have {} bytes, of {MOST_SCENE} that can be sent", bytes.len());
+                format!("the scene and its files have {} bytes, of {MAX_SCENE} that can be sent", bytes.len());
             return Err(SessionError::Machine(format!("{problem}; use shorter clips")));
         }
         let mut keys: BTreeMap<String, Vec<Command>> = BTreeMap::new();
         for binding in &scene.keys {
             keys.entry(binding.key.clone()).or_default().push(binding.command.clone());
         }
-        Ok(Playbill {
+        Ok(SceneManifest {
             scene: bytes.into(),
             actors: scene.characters.keys().cloned().collect(),
             keys,
@@ -43,63 +43,63 @@ impl Playbill {
     }
 }
 
-/// Runs the steps of a stage that has a desk.
+/// Runs the steps of a stage that has a queue.
 ///
 /// ```
-/// use sinew_live::session::{Playbill, Server, ServerSettings, Theatre};
+/// use sinew_live::session::{SceneManifest, Server, ServerSettings, SessionRunner};
 /// use sinew_stage::{Scene, Stage};
 /// let scene = Scene::from_text("format = 1\n[characters.red]\n")?;
 /// let settings = ServerSettings { bind: "127.0.0.1:0".parse()?, ..ServerSettings::default() };
-/// let (_server, desk) = Server::open(&settings, Playbill::of(&scene)?)?;
+/// let (_server, queue) = Server::open(&settings, SceneManifest::of(&scene)?)?;
 /// let mut stage = Stage::new(scene, None)?;
-/// let mut theatre = Theatre::new(desk, &stage);
+/// let mut session_runner = SessionRunner::new(queue, &stage);
 /// for _ in 0..8 {
-///     theatre.before_step(&mut stage);
+///     session_runner.before_step(&mut stage);
 ///     stage.step();
-///     theatre.after_step(&stage);
+///     session_runner.after_step(&stage);
 /// }
 /// assert_eq!(stage.frame().step, 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Theatre {
-    desk: Desk,
+pub struct SessionRunner {
+    queue: StageQueue,
     steps_per_frame: u64,
     has_obeyed: bool,
     hashes: BTreeMap<u64, String>,
-    obeyed: Vec<Obeyed>,
+    applied: Vec<AppliedCommand>,
 }
 
-/// A command or key that was obeyed, for the report.
+/// A command or key that was applied, for the report.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-pub struct Obeyed {
+pub struct AppliedCommand {
     /// A key, or the command's word.
     pub what: String,
     /// Whose client sent it.
     pub by: String,
     /// Physics steps that were done when it arrived.
     pub arrived_step: u64,
-    /// Physics steps that were done before the one that obeyed it; it stands in the take so.
+    /// Physics steps that were done before the one that applied it; it stands in the take so.
     pub step: u64,
 }
 
-/// Obeyed commands that are kept; of more the last.
-const MOST_OBEYED: usize = 1_000;
+/// AppliedCommand commands that are kept; of more the last.
+const MAX_OBEYED: usize = 1_000;
 
-impl Theatre {
-    /// A desk for a stage.
-    pub fn new(desk: Desk, stage: &Stage) -> Theatre {
+impl SessionRunner {
+    /// A queue for a stage.
+    pub fn new(queue: StageQueue, stage: &Stage) -> SessionRunner {
         let steps_per_frame = u64::from(stage.scene().stage.steps_per_frame()).max(1);
-        let mut theatre =
-            Theatre { desk, steps_per_frame, has_obeyed: false, hashes: BTreeMap::new(), obeyed: Vec::new() };
-        theatre.after_step(stage);
-        theatre
+        let mut session_runner =
+            SessionRunner { queue, steps_per_frame, has_obeyed: false, hashes: BTreeMap::new(), applied: Vec::new() };
+        session_runner.after_step(stage);
+        session_runner
     }
 
     /// Hands the stage what has arrived.
     pub fn before_step(&mut self, stage: &mut Stage) {
         self.has_obeyed = false;
         let step = stage.frame().step;
-        for Placed { order, by, arrived_step } in self.desk.orders_of_step() {
+        for Placed { order, by, arrived_step } in self.queue.orders_of_step() {
             let what = match order {
                 Order::Press(key) => {
                     stage.press(&key);
@@ -114,37 +114,37 @@ impl Theatre {
                 }
             };
             self.has_obeyed = true;
-            if self.obeyed.len() >= MOST_OBEYED {
-                self.obeyed.remove(0);
+            if self.applied.len() >= MAX_OBEYED {
+                self.applied.remove(0);
             }
-            self.obeyed.push(Obeyed { what, by: by.to_string(), arrived_step, step });
+            self.applied.push(AppliedCommand { what, by: by.to_string(), arrived_step, step });
         }
     }
 
-    /// Shows what has come of it: at the motion rate, and at once when somebody was obeyed, so that a pull is seen without
+    /// Shows what has come of it: at the motion rate, and at once when somebody was applied, so that a pull is seen without
     /// waiting for the next frame.
     pub fn after_step(&mut self, stage: &Stage) {
         let frame = stage.frame();
-        self.desk.done(frame.step);
+        self.queue.done(frame.step);
         note_hash(&mut self.hashes, frame.step, frame.hash());
         if self.has_obeyed || frame.step.is_multiple_of(self.steps_per_frame) {
-            self.desk.publish(frame);
+            self.queue.publish(frame);
         }
     }
 
     /// Whether somebody asked for the end.
     pub fn should_stop(&self) -> bool {
-        self.desk.should_stop()
+        self.queue.should_stop()
     }
 
-    /// [`Frame::hash`](sinew_world::Frame::hash) by step, as [`Tally::hashes`](super::Tally::hashes) of a client has them.
+    /// [`Frame::hash`](sinew_world::Frame::hash) by step, as [`ClientStats::hashes`](super::ClientStats::hashes) of a client has them.
     pub fn hashes(&self) -> &BTreeMap<u64, String> {
         &self.hashes
     }
 
-    /// Commands and keys of clients that were obeyed, performance left out: the last thousand.
-    pub fn obeyed(&self) -> &[Obeyed] {
-        &self.obeyed
+    /// Commands and keys of clients that were applied, performance left out: the last thousand.
+    pub fn applied(&self) -> &[AppliedCommand] {
+        &self.applied
     }
 }
 
@@ -167,7 +167,7 @@ pub struct Pacer {
 }
 
 /// How far behind the clock a stage tries to catch up.
-const MOST_BEHIND: Duration = Duration::from_millis(250);
+const MAX_BEHIND: Duration = Duration::from_millis(250);
 
 impl Pacer {
     /// The step after `step` begins now.
@@ -181,7 +181,7 @@ impl Pacer {
         let now = Instant::now();
         if let Some(wait) = due.checked_duration_since(now) {
             std::thread::sleep(wait);
-        } else if now - due > MOST_BEHIND {
+        } else if now - due > MAX_BEHIND {
             self.lapses += 1;
             (self.began, self.from_step) = (now, step);
         }

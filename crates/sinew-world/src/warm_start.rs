@@ -11,7 +11,7 @@ use rapier3d_f64::prelude::*;
 
 /// Force and torque of a joint on its parent, the opposite on its child; world axes \[N, N m\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Borne {
+pub(crate) struct WarmStart {
     pub force: DVec3,
     pub torque: DVec3,
 }
@@ -21,12 +21,12 @@ pub(crate) struct Borne {
 const SHARE: f64 = 0.95;
 
 /// Most that is handed on \[weights of the body\]: above it is an impact, which is over.
-const MOST_WEIGHTS: f64 = 4.0;
+const MAX_WEIGHTS: f64 = 4.0;
 
-impl Borne {
+impl WarmStart {
     /// What the joint bore in the last step, when this acted as its start.
-    pub fn after(self, joint: &ImpulseJoint, bodies: &RigidBodySet, sub_step_secs: f64) -> Borne {
-        let Some(parent) = bodies.get(joint.body1()) else { return Borne::default() };
+    pub fn after(self, joint: &ImpulseJoint, bodies: &RigidBodySet, sub_step_secs: f64) -> WarmStart {
+        let Some(parent) = bodies.get(joint.body1()) else { return WarmStart::default() };
         let axes = DMat3::from_quat(parent.rotation() * joint.data.local_frame1.rotation);
         let mut torque = DVec3::ZERO;
         for (at, mask) in [JointAxesMask::ANG_X, JointAxesMask::ANG_Y, JointAxesMask::ANG_Z].into_iter().enumerate() {
@@ -34,18 +34,18 @@ impl Borne {
                 torque += axes.col(at) * joint.data.motors[3 + at].impulse;
             }
         }
-        Borne {
+        WarmStart {
             force: self.force + joint_impulse(joint, bodies) / sub_step_secs,
             torque: self.torque + torque / sub_step_secs,
         }
     }
 
     /// What of it the next step begins with.
-    pub fn handed_on(self, weight_n: f64, stature_m: f64) -> Borne {
+    pub fn handed_on(self, weight_n: f64, stature_m: f64) -> WarmStart {
         let share = |vector: DVec3, most: f64| {
             if vector.is_finite() { (vector * SHARE).clamp_length_max(most) } else { DVec3::ZERO }
         };
-        let most = MOST_WEIGHTS * weight_n;
-        Borne { force: share(self.force, most), torque: share(self.torque, most * stature_m * 0.5) }
+        let most = MAX_WEIGHTS * weight_n;
+        WarmStart { force: share(self.force, most), torque: share(self.torque, most * stature_m * 0.5) }
     }
 }

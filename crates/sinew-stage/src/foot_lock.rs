@@ -5,14 +5,14 @@ use sinew_body::humanoid::{Body, Node, Pose};
 
 /// The feet of the wanted pose a step ago, against the hips.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Stance {
+pub(crate) struct FootLock {
     feet: Option<[DVec3; 2]>,
 }
 
 /// A foot so much higher than the other does not stand \[m\].
 const LIFTED_M: f64 = 0.04;
 
-impl Stance {
+impl FootLock {
     /// How far the hips go over the ground, so that the standing foot of this pose is where it was in the last.
     pub fn step(&mut self, body: &Body, pose: &Pose) -> DVec3 {
         let places = pose.positions(body);

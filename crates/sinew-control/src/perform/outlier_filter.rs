@@ -12,13 +12,13 @@ const STALE_SECS: f64 = 1.0;
 const UNIT_ERROR: f64 = 0.01;
 
 /// The fastest turn of a joint \[rad/s\]: a boxer's forearm has about 25.
-const MOST_RAD_S: f64 = 40.0;
+const MAX_RAD_S: f64 = 40.0;
 
 /// What a joint may turn on top, whatever the time \[rad\].
 const SPARE_RAD: f64 = 0.35;
 
 /// The fastest hips \[m/s\]: a sprinter's have 12 at the very most.
-const MOST_M_S: f64 = 12.0;
+const MAX_M_S: f64 = 12.0;
 
 /// What the hips may move on top, whatever the time \[m\].
 const SPARE_M: f64 = 0.15;
@@ -41,7 +41,7 @@ pub(super) enum Verdict {
 
 /// Looks at samples as they come.
 #[derive(Clone, Debug)]
-pub(super) struct Hygiene {
+pub(super) struct OutlierFilter {
     numbers: Numbers,
     counters: PerformCounters,
     /// The last sample that did not fit, and how many in a row fitted the one before.
@@ -61,9 +61,9 @@ pub(super) struct Around<'a> {
     pub scale: f64,
 }
 
-impl Hygiene {
-    pub fn new() -> Hygiene {
-        Hygiene {
+impl OutlierFilter {
+    pub fn new() -> OutlierFilter {
+        OutlierFilter {
             numbers: Numbers::new(),
             counters: PerformCounters::default(),
             odd: None,
@@ -156,7 +156,7 @@ impl Hygiene {
         let fits = |(before, pose): (f64, Pose)| {
             let gap = (time - before).abs();
             let (turn, way) = distance(&pose, around.pose);
-            turn <= SPARE_RAD + MOST_RAD_S * gap && way <= scale * (SPARE_M + MOST_M_S * gap)
+            turn <= SPARE_RAD + MAX_RAD_S * gap && way <= scale * (SPARE_M + MAX_M_S * gap)
         };
         if fits((nearest.time_secs, nearest.pose)) {
             return Verdict::Use;

@@ -1,8 +1,8 @@
 //! Commands to the tracker `kd`: how firmly a performer's motion holds a body.
 
 use crate::Stage;
-use crate::obey::{listed, number};
-use crate::span::Ending;
+use crate::apply_command::{listed, number};
+use crate::timed_effect::Expiry;
 use sinew_body::humanoid::Node;
 use sinew_control::Action;
 use sinew_control::tracker::{KdGains, KdTracker};
@@ -12,7 +12,7 @@ const FADE_SECS: f64 = 0.5;
 
 impl Stage {
     /// What was done, in words.
-    pub(crate) fn obey_kd(&mut self, character: usize, action: &Action) -> Result<String, String> {
+    pub(crate) fn apply_kd(&mut self, character: usize, action: &Action) -> Result<String, String> {
         let who = self.cast.characters()[character].clone();
         let fade = |secs: &Option<f64>| number(secs.unwrap_or(FADE_SECS), "fade_secs").map(|secs| secs.max(0.0));
         match action {
@@ -27,7 +27,7 @@ impl Stage {
                     kd.set_weight(node, pin.map(|pin| pin.max(0.0)), joint.map(|joint| joint.max(0.0)), fade_secs);
                 }
                 for &node in &nodes {
-                    self.spans.end_at(until, Ending::Weights(character, node));
+                    self.timed_effects.end_at(until, Expiry::Weights(character, node));
                 }
                 let word = |weight: Option<f64>| weight.map_or("as it was".to_owned(), |weight| weight.to_string());
                 Ok(format!("{who}: pin {} and joint {} on {}", word(pin), word(joint), listed(&nodes)))
@@ -51,7 +51,7 @@ impl Stage {
                 if let Some(on) = feed_forward {
                     kd.set_feed_forward(*on);
                 }
-                self.spans.end_at(until, Ending::Kd(character));
+                self.timed_effects.end_at(until, Expiry::Kd(character));
                 let KdGains { k_p, d_p, k_q, d_q } = gains;
                 Ok(format!("{who}: k_p {k_p}, d_p {d_p}, k_q {k_q}, d_q {d_q}"))
             }
@@ -59,7 +59,7 @@ impl Stage {
                 let fade_secs = fade(fade_secs)?;
                 let until = self.until(*for_secs)?;
                 self.switch_pins(character, *on, fade_secs)?;
-                self.spans.end_at(until, Ending::Pins(character));
+                self.timed_effects.end_at(until, Expiry::Pins(character));
                 Ok(format!("{who}: kinematic forces are {}", if *on { "on" } else { "off" }))
             }
             _ => Err("this is no command to the tracker kd".to_owned()),
@@ -67,12 +67,12 @@ impl Stage {
     }
 
     /// Undoes what has lasted for its time; what was done, in words, unless the character follows in another way by now.
-    pub(crate) fn end_kd(&mut self, ending: &Ending) -> Option<String> {
-        let (Ending::Weights(character, _) | Ending::Kd(character) | Ending::Pins(character)) = *ending else {
+    pub(crate) fn end_kd(&mut self, ending: &Expiry) -> Option<String> {
+        let (Expiry::Weights(character, _) | Expiry::Kd(character) | Expiry::Pins(character)) = *ending else {
             return None;
         };
         let who = self.cast.characters().get(character)?.clone();
-        if *ending == Ending::Pins(character) {
+        if *ending == Expiry::Pins(character) {
             let on = !self.kd(character).ok()?.has_pins();
             self.switch_pins(character, on, FADE_SECS).ok()?;
             return Some(format!("{who}: kinematic forces are {}", if on { "on" } else { "off" }));
@@ -82,7 +82,7 @@ impl Stage {
         let settings = spec.kd.settings(|part| spec.node(part));
         let kd = self.kd(character).ok()?;
         match ending {
-            Ending::Weights(_, node) => {
+            Expiry::Weights(_, node) => {
                 let weight = settings.weights[node.index()];
                 kd.set_weight(*node, Some(weight.pin), Some(weight.joint), FADE_SECS);
                 Some(format!("{who}: {} is held as before", node.part()))
@@ -112,7 +112,7 @@ impl Stage {
         let facing = frame.facing;
         let turn = glam::DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
         self.actors[character].stand = (frame.parts[0].position, turn);
-        self.actors[character].stance.forget();
+        self.actors[character].foot_lock.forget();
     }
 
     fn kd(&mut self, character: usize) -> Result<&mut KdTracker, String> {

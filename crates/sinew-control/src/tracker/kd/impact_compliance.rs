@@ -19,20 +19,20 @@ const LOAD_SECS: f64 = 0.3;
 const LEAST: f64 = 0.02;
 
 /// The same of the hips' pin: legs hold the rest.
-const LEAST_OF_HIPS: f64 = 0.2;
+const MIN_OF_HIPS: f64 = 0.2;
 
 /// How fast it gives way, and comes back \[s\].
 const TIMES_SECS: [f64; 2] = [0.01, 0.3];
 
 /// How far the trunk gives way now.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Giving {
+pub(super) struct ImpactCompliance {
     load: DVec3,
     impulse: DVec3,
     share: f64,
 }
 
-impl Giving {
+impl ImpactCompliance {
     /// Feels what pushed and touched the trunk in the world's last step.
     pub(super) fn feel(&mut self, world: &World, character: usize, mass_kg: f64, step_secs: f64) {
         let force = force_on_trunk(world, character, step_secs);
@@ -48,14 +48,14 @@ impl Giving {
 
     /// Feels nothing any more.
     pub(super) fn forget(&mut self) {
-        *self = Giving::default();
+        *self = ImpactCompliance::default();
     }
 
     /// Factors on the stiffness of a part's pin and of its joint.
     pub(super) fn factors(&self, node: Node) -> (f64, f64) {
         let left = |least: f64| 1.0 - self.share * (1.0 - least);
         let pin = match node {
-            Node::Hips => left(LEAST_OF_HIPS),
+            Node::Hips => left(MIN_OF_HIPS),
             node if is_above_hips(node) => left(LEAST),
             _ => 1.0,
         };

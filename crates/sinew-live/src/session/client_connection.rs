@@ -1,12 +1,12 @@
 //! One client, seen from the server: from its first word to its last.
 
 use super::channel::{hear, say};
-use super::desk::{Order, Placed, Sent, Shared, count};
 use super::limits::*;
 use super::message::{ClientSays, Hello, ServerSays, Welcome, short};
 use super::pace::Pace;
-use super::seats::Seats;
-use super::server::{Playbill, Stranger};
+use super::role_assignments::RoleAssignments;
+use super::server::{PendingConnection, SceneManifest};
+use super::stage_queue::{Order, Placed, Sent, Shared, count};
 use super::upward::Upward;
 use super::{Refusal, Role, SessionError, permit};
 use base64::Engine;
@@ -28,9 +28,9 @@ pub(super) const GARBAGE: u32 = 2;
 pub(super) const REPLACED: u32 = 3;
 
 /// What all guests share.
-pub(super) struct House {
-    pub bill: Playbill,
-    pub seats: Mutex<Seats<Connection>>,
+pub(super) struct ServerState {
+    pub manifest: SceneManifest,
+    pub roles: Mutex<RoleAssignments<Connection>>,
     pub secrets: [(Role, [u8; 32]); 2],
     pub order: SyncSender<Placed>,
     pub frames: watch::Receiver<Sent>,
@@ -39,36 +39,36 @@ pub(super) struct House {
 }
 
 /// A client that is in.
-struct Guest {
+struct ClientConnection {
     number: u64,
     role: Role,
     actors: Vec<String>,
     by: Arc<str>,
-    house: Arc<House>,
+    state: Arc<ServerState>,
     connection: Connection,
 }
 
 /// Hears who it is, and keeps it as long as it stays.
-pub(super) async fn receive(house: Arc<House>, number: u64, connection: Connection, stranger: Stranger) {
-    let greeted = timeout(HELLO_WITHIN, greet(&house, number, &connection)).await;
+pub(super) async fn receive(state: Arc<ServerState>, number: u64, connection: Connection, stranger: PendingConnection) {
+    let greeted = timeout(HELLO_WITHIN, greet(&state, number, &connection)).await;
     drop(stranger);
-    let (guest, to, from) = match greeted {
+    let (client, to, from) = match greeted {
         Ok(Ok(greeted)) => greeted,
         Ok(Err(_)) | Err(_) => {
-            count(&house.shared.counts.strangers_refused);
+            count(&state.shared.counts.strangers_refused);
             connection.close(GARBAGE.into(), b"no greeting");
             return;
         }
     };
-    let Some(guest) = guest else {
-        count(&house.shared.counts.strangers_refused);
+    let Some(client) = client else {
+        count(&state.shared.counts.strangers_refused);
         refuse_politely(&connection, to).await;
         return;
     };
-    count(&house.shared.counts.joined);
-    let ended = guest.stay(to, from).await;
-    house.seats().leave(number);
-    house.shared.counts.present.fetch_sub(1, Ordering::Relaxed);
+    count(&state.shared.counts.joined);
+    let ended = client.stay(to, from).await;
+    state.roles().leave(number);
+    state.shared.counts.present.fetch_sub(1, Ordering::Relaxed);
     match ended {
         Ok(()) => connection.close(CLOSED.into(), b"goodbye"),
         Err(SessionError::Malformed(problem)) => connection.close(GARBAGE.into(), short(&problem).as_bytes()),
@@ -85,17 +85,17 @@ async fn refuse_politely(connection: &Connection, mut to: SendStream) {
 
 /// Reads the greeting. `None` when the client has been told why it is refused.
 async fn greet(
-    house: &Arc<House>,
+    state: &Arc<ServerState>,
     number: u64,
     connection: &Connection,
-) -> Result<(Option<Guest>, SendStream, RecvStream), SessionError> {
+) -> Result<(Option<ClientConnection>, SendStream, RecvStream), SessionError> {
     let (mut to, mut from) = connection.accept_bi().await.map_err(ended)?;
-    let bytes = hear(&mut from, MOST_HELLO).await?;
-    match house.admit(number, &bytes.unwrap_or_default(), connection) {
+    let bytes = hear(&mut from, MAX_HELLO).await?;
+    match state.admit(number, &bytes.unwrap_or_default(), connection) {
         Ok((role, actors)) => {
             let by = if actors.is_empty() { role.name().to_owned() } else { actors.join(", ") };
-            let (house, connection) = (Arc::clone(house), connection.clone());
-            Ok((Some(Guest { number, role, actors, by: by.into(), house, connection }), to, from))
+            let (state, connection) = (Arc::clone(state), connection.clone());
+            Ok((Some(ClientConnection { number, role, actors, by: by.into(), state, connection }), to, from))
         }
         Err(refusal) => {
             say(&mut to, &ServerSays::Refused(refusal)).await?;
@@ -104,9 +104,9 @@ async fn greet(
     }
 }
 
-impl House {
-    fn seats(&self) -> MutexGuard<'_, Seats<Connection>> {
-        self.seats.lock().unwrap_or_else(PoisonError::into_inner)
+impl ServerState {
+    fn roles(&self) -> MutexGuard<'_, RoleAssignments<Connection>> {
+        self.roles.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Decides whether somebody may come in, and as whom.
@@ -126,7 +126,7 @@ impl House {
             present.fetch_sub(1, Ordering::Relaxed);
             return Err(Refusal::Full);
         }
-        let claimed = self.seats().claim(number, &hello.actors, connection, Instant::now());
+        let claimed = self.roles().claim(number, &hello.actors, connection, Instant::now());
         match claimed {
             Ok(lost) => {
                 for connection in lost {
@@ -142,22 +142,22 @@ impl House {
     }
 }
 
-impl Guest {
+impl ClientConnection {
     /// Until it leaves, is cut off or breaks a rule.
     async fn stay(&self, mut to: SendStream, from: RecvStream) -> Result<(), SessionError> {
-        let bill = &self.house.bill;
+        let manifest = &self.state.manifest;
         let welcome = Welcome {
             role: self.role,
             actors: self.actors.clone(),
-            step: self.house.shared.step.load(Ordering::Relaxed),
-            physics_hz: bill.physics_hz,
-            seed: bill.seed,
-            scene_bytes: bill.scene.len() as u64,
+            step: self.state.shared.step.load(Ordering::Relaxed),
+            physics_hz: manifest.physics_hz,
+            seed: manifest.seed,
+            scene_bytes: manifest.scene.len() as u64,
         };
         let (note, notes) = mpsc::channel(16);
         let begin = async {
             say(&mut to, &ServerSays::Welcome(welcome)).await?;
-            to.write_all(&bill.scene).await.map_err(ended)?;
+            to.write_all(&manifest.scene).await.map_err(ended)?;
             Ok(to)
         };
         let speak = async {
@@ -176,7 +176,7 @@ impl Guest {
     /// Commands and keys. One that sends more than it may is read no faster: its own stream fills, and nobody else's.
     async fn hear_control(&self, mut from: RecvStream, note: &mpsc::Sender<String>) -> Result<(), SessionError> {
         let mut pace = Pace::new(CONTROL_PER_SEC, Instant::now());
-        while let Some(bytes) = hear(&mut from, MOST_CLIENT_MESSAGE).await? {
+        while let Some(bytes) = hear(&mut from, MAX_CLIENT_MESSAGE).await? {
             while let Err(wait) = pace.take(Instant::now()) {
                 tokio::time::sleep(wait).await;
             }
@@ -190,7 +190,7 @@ impl Guest {
                 ClientSays::Press(key) => self.may_press(&key).and_then(|()| self.pass(Order::Press(key))),
             };
             if let Err(problem) = passed {
-                count(&self.house.shared.counts.orders_refused);
+                count(&self.state.shared.counts.orders_refused);
                 // One that does not read what it is told is not told more.
                 let _ = note.try_send(problem);
             }
@@ -204,7 +204,7 @@ impl Guest {
         loop {
             let bytes = self.connection.read_datagram().await.map_err(ended)?;
             if pace.take(Instant::now()).is_err() {
-                count(&self.house.shared.counts.orders_dropped);
+                count(&self.state.shared.counts.orders_dropped);
                 continue;
             }
             self.is_heard()?;
@@ -217,7 +217,7 @@ impl Guest {
     }
 
     fn is_heard(&self) -> Result<(), SessionError> {
-        if self.house.seats().hear(self.number, &self.actors, Instant::now()) {
+        if self.state.roles().hear(self.number, &self.actors, Instant::now()) {
             Ok(())
         } else {
             Err(SessionError::Ended("the actor has joined anew".to_owned()))
@@ -226,12 +226,12 @@ impl Guest {
 
     /// Whether a command names what the scene has, with numbers that are sound.
     fn suits(&self, command: &Command) -> Result<(), String> {
-        self.house.bill.rules.as_ref().map_or(Ok(()), |scene| scene.check_command(command))
+        self.state.manifest.rules.as_ref().map_or(Ok(()), |scene| scene.check_command(command))
     }
 
     fn may_press(&self, key: &str) -> Result<(), String> {
-        let bound = self.house.bill.keys.get(key).ok_or_else(|| {
-            let known: Vec<&str> = self.house.bill.keys.keys().map(String::as_str).collect();
+        let bound = self.state.manifest.keys.get(key).ok_or_else(|| {
+            let known: Vec<&str> = self.state.manifest.keys.keys().map(String::as_str).collect();
             format!("the scene has no key `{}`; there are {}", short(key), known.join(", "))
         })?;
         bound.iter().try_for_each(|command| permit(self.role, &self.actors, command))
@@ -239,9 +239,9 @@ impl Guest {
 
     /// Hands an order to the stage, which takes it before its next step.
     fn pass(&self, order: Order) -> Result<(), String> {
-        let shared = &self.house.shared;
+        let shared = &self.state.shared;
         let arrived_step = shared.step.load(Ordering::Relaxed);
-        match self.house.order.try_send(Placed { order, by: Arc::clone(&self.by), arrived_step }) {
+        match self.state.order.try_send(Placed { order, by: Arc::clone(&self.by), arrived_step }) {
             Ok(()) => {
                 count(&shared.counts.orders);
                 Ok(())
@@ -256,8 +256,8 @@ impl Guest {
     /// Frames. Each has a stream of its own, so that a lost packet holds up one frame and no other. As many are under way as the
     /// connection can carry at a time; a frame for which there is no room is left out, and the next one is newer.
     async fn show(&self) -> Result<(), SessionError> {
-        let shared = &self.house.shared;
-        let mut frames = self.house.frames.clone();
+        let shared = &self.state.shared;
+        let mut frames = self.state.frames.clone();
         frames.mark_changed();
         let under_way = Arc::new(AtomicU64::new(0));
         loop {

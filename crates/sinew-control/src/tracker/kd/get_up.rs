@@ -1,14 +1,14 @@
 //! From lying on the ground to where the performer is: as people get up, by way of a crouch, where they lie; then after the performer.
 
+use super::inertial_blend::sole_m;
 use super::ramp::smooth;
-use super::slide::sole_m;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 
 /// A way up. First the body gathers its feet under itself, then it stands up into the wanted pose and begins to go along with it; what
 /// the performer is ahead by then, it makes up for.
 #[derive(Clone, Debug)]
-pub(super) struct Rise {
+pub(super) struct GetUp {
     lying: Pose,
     /// Against the parents; the hips' in the world.
     crouch: [DQuat; Node::COUNT],
@@ -57,7 +57,7 @@ const LIES: f64 = 0.5;
 /// A body is lifted off the floor this smoothly \[s\].
 const LIFT_SECS: f64 = 0.03;
 
-impl Rise {
+impl GetUp {
     /// Whether a pose is one to get up from: hips low, and turned from upright.
     pub(super) fn is_from(body: &Body, pose: &Pose) -> bool {
         let low = pose.hips_position.y - sole_m(body, pose).min(pose.hips_position.y) < 0.3 * body.stature_m();
@@ -65,9 +65,9 @@ impl Rise {
     }
 
     /// From a pose to a wanted one, with the velocity of the hips \[m/s\]; over at least this time.
-    pub(super) fn between(body: &Body, from: &Pose, to: &Pose, velocity: DVec3, least_secs: f64) -> Rise {
+    pub(super) fn between(body: &Body, from: &Pose, to: &Pose, velocity: DVec3, least_secs: f64) -> GetUp {
         let up_secs = UP_SECS * (body.stature_m() / 1.7).sqrt();
-        Rise {
+        GetUp {
             lying: *from,
             crouch: crouch(to),
             place: from.hips_position,

@@ -3,8 +3,8 @@
 use crate::Stage;
 use crate::fade::Weighs;
 use crate::scene::TrackerKind;
-use crate::span::{Ending, LastingPush, MOST_PUSHES};
 use crate::stage::step_of;
+use crate::timed_effect::{Expiry, LastingPush, MAX_PUSHES};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command};
@@ -13,28 +13,28 @@ use sinew_world::{Entity, PartShape};
 impl Stage {
     /// Does what a command says and notes it. A command that makes no sense here (an unknown name, a number that is not
     /// finite) is noted as refused, with the reason.
-    pub(crate) fn obey(&mut self, command: &Command, cause: &str) {
-        match self.try_obey(command) {
+    pub(crate) fn apply(&mut self, command: &Command, cause: &str) {
+        match self.try_apply(command) {
             Ok(Some(effect)) => self.note(cause, effect),
             Ok(None) => {}
             Err(problem) => self.note(cause, format!("refused: {problem}")),
         }
     }
 
-    fn try_obey(&mut self, command: &Command) -> Result<Option<String>, String> {
+    fn try_apply(&mut self, command: &Command) -> Result<Option<String>, String> {
         match &command.character {
             Some(name) => {
                 let character = self
                     .cast
                     .character(name)
                     .ok_or_else(|| format!("no character `{name}`; there are {}", self.cast.characters().join(", ")))?;
-                self.obey_for(character, &command.action)
+                self.apply_to_character(character, &command.action)
             }
-            None => self.obey_on_stage(&command.action),
+            None => self.apply_to_stage(&command.action),
         }
     }
 
-    fn obey_for(&mut self, character: usize, action: &Action) -> Result<Option<String>, String> {
+    fn apply_to_character(&mut self, character: usize, action: &Action) -> Result<Option<String>, String> {
         let who = self.cast.characters()[character].clone();
         let effect = match action {
             Action::Pose { name } => {
@@ -79,7 +79,7 @@ impl Stage {
                 self.actors[character].stop_reaching(limb);
                 format!("{who} reaches no longer")
             }
-            Action::Attach { .. } | Action::Detach { .. } => return self.obey_grasp(character, action),
+            Action::Attach { .. } | Action::Detach { .. } => return self.apply_grasp(character, action),
             Action::Push { on, force_n, for_secs, facing, at_m } => {
                 let node = self.part(character, on)?;
                 let mut force = vector(*force_n, "force_n")?;
@@ -104,7 +104,7 @@ impl Stage {
                 let until = self.until(*for_secs)?;
                 for &node in &nodes {
                     self.world.set_forces(character, node, false);
-                    self.spans.end_at(until, Ending::ForcesOff(character, node));
+                    self.timed_effects.end_at(until, Expiry::ForcesOff(character, node));
                 }
                 format!("{who}: forces on {} are off", listed(&nodes))
             }
@@ -112,7 +112,7 @@ impl Stage {
                 let nodes = if parts.is_empty() { Node::ALL.to_vec() } else { self.parts(character, parts)? };
                 for &node in &nodes {
                     self.world.set_forces(character, node, true);
-                    self.spans.end_at(None, Ending::ForcesOff(character, node));
+                    self.timed_effects.end_at(None, Expiry::ForcesOff(character, node));
                 }
                 format!("{who}: forces on {} are on", listed(&nodes))
             }
@@ -123,12 +123,12 @@ impl Stage {
                 };
                 let until = self.until(*for_secs)?;
                 self.world.hold_to_plane(character, facing);
-                self.spans.end_at(until, Ending::Plane(character));
+                self.timed_effects.end_at(until, Expiry::Plane(character));
                 format!("{who} is held to a plane")
             }
             Action::PlaneOff {} => {
-                self.end(&Ending::Plane(character));
-                self.spans.end_at(None, Ending::Plane(character));
+                self.end(&Expiry::Plane(character));
+                self.timed_effects.end_at(None, Expiry::Plane(character));
                 return Ok(None);
             }
             Action::Gravity { scale, part, over_secs, for_secs, .. } => {
@@ -140,10 +140,10 @@ impl Stage {
                 let things: Vec<Weighs> = nodes.iter().map(|&node| Weighs::Part(character, node)).collect();
                 self.weigh(&things, scale, over_secs);
                 for &node in &nodes {
-                    self.spans.end_at(until.filter(|_| only.is_some()), Ending::PartGravity(character, node));
+                    self.timed_effects.end_at(until.filter(|_| only.is_some()), Expiry::PartGravity(character, node));
                 }
                 if only.is_none() {
-                    self.spans.end_at(until, Ending::Gravity(character));
+                    self.timed_effects.end_at(until, Expiry::Gravity(character));
                 }
                 let of = if only.is_some() { format!(" on {}", listed(&nodes)) } else { String::new() };
                 format!("{who}: gravity{of} times {scale}{}", over(over_secs))
@@ -158,7 +158,7 @@ impl Stage {
                 };
                 self.world.set_shape(character, node, solid.clone()).map_err(|error| error.to_string())?;
                 self.note_shape(character, node, solid);
-                self.spans.end_at(until, Ending::Shape(character, node));
+                self.timed_effects.end_at(until, Expiry::Shape(character, node));
                 format!("{who}'s {} has the shape {shape}", node.part())
             }
             Action::AddShape { part, shape, for_secs } => {
@@ -166,7 +166,7 @@ impl Stage {
                 let until = self.until(*for_secs)?;
                 let solid = self.shape(shape)?;
                 self.world.add_shape(character, node, shape, &solid).map_err(|error| error.to_string())?;
-                self.spans.end_at(until, Ending::ExtraShape(character, node, shape.clone()));
+                self.timed_effects.end_at(until, Expiry::ExtraShape(character, node, shape.clone()));
                 format!("{who}'s {} has the shape {shape} as well", node.part())
             }
             Action::RemoveShape { part, shape } => {
@@ -174,7 +174,7 @@ impl Stage {
                 if !self.world.remove_shape(character, node, shape) {
                     return Err(format!("no shape `{shape}` was added to the {}", node.part()));
                 }
-                self.spans.end_at(None, Ending::ExtraShape(character, node, shape.clone()));
+                self.timed_effects.end_at(None, Expiry::ExtraShape(character, node, shape.clone()));
                 format!("{who}'s {} has the shape {shape} no longer", node.part())
             }
             Action::Layer { layer, on } => {
@@ -190,7 +190,7 @@ impl Stage {
                 self.start_controller(character, name)?;
                 format!("{who} is run by {}", if name.is_empty() { "no controller" } else { name })
             }
-            Action::Weights { .. } | Action::Kd { .. } | Action::Pins { .. } => self.obey_kd(character, action)?,
+            Action::Weights { .. } | Action::Kd { .. } | Action::Pins { .. } => self.apply_kd(character, action)?,
             Action::Tracker { name } => {
                 let kind = TrackerKind::of(name).ok_or_else(|| {
                     format!("no tracker `{name}`; there are {}", TrackerKind::ALL.map(TrackerKind::name).join(", "))
@@ -212,59 +212,59 @@ impl Stage {
             Action::ScriptKilled { name, reason } => return self.kill_script(name, reason).map(Some),
             Action::Say { text } => format!("{who}: {text}"),
             Action::Place { .. } | Action::Accelerate { .. } | Action::Motor { .. } | Action::Cut { .. } => {
-                return self.obey_on_stage(action);
+                return self.apply_to_stage(action);
             }
         };
         Ok(Some(effect))
     }
 
     /// Undoes what has lasted for its time.
-    pub(crate) fn end(&mut self, ending: &Ending) {
+    pub(crate) fn end(&mut self, ending: &Expiry) {
         let who = |index: usize| self.cast.characters().get(index).cloned().unwrap_or_default();
         let effect = match ending {
-            Ending::ForcesOff(character, node) => {
+            Expiry::ForcesOff(character, node) => {
                 self.world.set_forces(*character, *node, true);
                 format!("{}: forces on {} are on", who(*character), node.part())
             }
-            Ending::Plane(character) => {
+            Expiry::Plane(character) => {
                 if !self.world.is_held_to_plane(*character) {
                     return;
                 }
                 self.world.free_from_plane(*character);
                 format!("{} is free in three dimensions", who(*character))
             }
-            Ending::Gravity(character) => {
+            Expiry::Gravity(character) => {
                 let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
                 let effect = format!("{}: gravity times {scale}", who(*character));
                 self.weigh(&Node::ALL.map(|node| Weighs::Part(*character, node)), scale, None);
                 effect
             }
-            Ending::PartGravity(character, node) => {
+            Expiry::PartGravity(character, node) => {
                 let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
                 let effect = format!("{}: gravity on {} times {scale}", who(*character), node.part());
                 self.weigh(&[Weighs::Part(*character, *node)], scale, None);
                 effect
             }
-            Ending::PropGravity(prop) => {
+            Expiry::PropGravity(prop) => {
                 let scale = self.scene.props.values().nth(*prop).and_then(|spec| spec.gravity_scale).unwrap_or(1.0);
                 self.weigh(&[Weighs::Prop(*prop)], scale, None);
                 format!("{}: gravity times {scale}", self.cast.props()[*prop])
             }
-            Ending::Shape(character, node) => {
+            Expiry::Shape(character, node) => {
                 // The body's own shape is one.
                 let _ = self.world.set_shape(*character, *node, PartShape::Own);
                 self.shapes.remove(&(*character, *node));
                 format!("{}'s {} has its own shape", who(*character), node.part())
             }
-            Ending::ExtraShape(character, node, name) => {
+            Expiry::ExtraShape(character, node, name) => {
                 self.world.remove_shape(*character, *node, name);
                 format!("{}'s {} has the shape {name} no longer", who(*character), node.part())
             }
-            Ending::Weights(..) | Ending::Kd(_) | Ending::Pins(_) => {
+            Expiry::Weights(..) | Expiry::Kd(_) | Expiry::Pins(_) => {
                 let Some(effect) = self.end_kd(ending) else { return };
                 effect
             }
-            Ending::Acceleration(prop) => {
+            Expiry::Acceleration(prop) => {
                 self.world.accelerate_prop(*prop, DVec3::ZERO);
                 format!("{} keeps its speed", self.cast.props()[*prop])
             }
@@ -289,14 +289,14 @@ impl Stage {
         for_secs: f64,
     ) -> Result<bool, String> {
         let at = at_m.map(|at| vector(at, "at_m")).transpose()?;
-        if self.spans.pushes.len() >= MOST_PUSHES {
-            return Err(format!("{MOST_PUSHES} pushes act already"));
+        if self.timed_effects.pushes.len() >= MAX_PUSHES {
+            return Err(format!("{MAX_PUSHES} pushes act already"));
         }
         let for_secs = number(for_secs, "for_secs")?;
         let steps = step_of(for_secs, self.world.settings().step_secs()).max(1);
         let until_step = self.world.frame().step.saturating_add(steps);
-        let goes_on = steps == 1 && self.spans.pushes.iter().any(|push| push.on == on);
-        self.spans.pushes.push(LastingPush { on, at, force, until_step });
+        let goes_on = steps == 1 && self.timed_effects.pushes.iter().any(|push| push.on == on);
+        self.timed_effects.pushes.push(LastingPush { on, at, force, until_step });
         Ok(!goes_on)
     }
 

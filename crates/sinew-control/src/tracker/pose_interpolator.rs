@@ -8,7 +8,7 @@ use sinew_body::humanoid::{Node, Pose, exp, log};
 /// A cubic needs the velocity at its end too, before the frame after it is known: it is found from the last three poses
 /// (the second-order backward difference), so that velocities have no steps and nothing is late.
 #[derive(Clone, Debug)]
-pub(crate) struct Glide {
+pub(crate) struct PoseInterpolator {
     from: Pose,
     to: Pose,
     hips: Cubic,
@@ -29,10 +29,10 @@ impl Cubic {
     }
 }
 
-impl Glide {
+impl PoseInterpolator {
     /// At rest in a pose.
-    pub(crate) fn rest(pose: &Pose) -> Glide {
-        Glide { from: *pose, to: *pose, hips: Cubic::default(), turns: [Cubic::default(); Node::COUNT] }
+    pub(crate) fn rest(pose: &Pose) -> PoseInterpolator {
+        PoseInterpolator { from: *pose, to: *pose, hips: Cubic::default(), turns: [Cubic::default(); Node::COUNT] }
     }
 
     /// Goes on to the pose of the next motion frame.
@@ -99,13 +99,13 @@ mod tests {
 
     #[test]
     fn between_frames_a_smooth_motion_is_met() {
-        let mut glide = Glide::rest(&swing(0.0));
+        let mut interpolator = PoseInterpolator::rest(&swing(0.0));
         let mut worst: f64 = 0.0;
         for frame in 1..120 {
-            glide.next(&swing(f64::from(frame)));
+            interpolator.next(&swing(f64::from(frame)));
             for step in 1..=4 {
                 let fraction = f64::from(step) / 4.0;
-                let (ours, theirs) = (glide.at(fraction), swing(f64::from(frame - 1) + fraction));
+                let (ours, theirs) = (interpolator.at(fraction), swing(f64::from(frame - 1) + fraction));
                 if frame > 4 {
                     worst = worst.max((ours.hips_position - theirs.hips_position).length());
                     for at in 0..Node::COUNT {
@@ -120,13 +120,13 @@ mod tests {
 
     #[test]
     fn velocities_have_no_steps_where_frames_meet() {
-        let mut glide = Glide::rest(&swing(0.0));
+        let mut interpolator = PoseInterpolator::rest(&swing(0.0));
         let mut last: Option<(DVec3, DVec3)> = None;
         let tiny = 1e-4;
         for frame in 1..60 {
-            glide.next(&swing(f64::from(frame)));
+            interpolator.next(&swing(f64::from(frame)));
             let velocity = |from: f64, to: f64| {
-                let (a, b) = (glide.at(from), glide.at(to));
+                let (a, b) = (interpolator.at(from), interpolator.at(to));
                 let hand = Node::LeftHand.index();
                 ((b.hips_position - a.hips_position) / tiny, log(b.world[hand] * a.world[hand].conjugate()) / tiny)
             };

@@ -1,0 +1,49 @@
+//! From where a body is to where it is wanted.
+
+use super::get_up::GetUp;
+use super::inertial_blend::InertialBlend;
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Pose};
+
+/// How a body comes to a wanted pose.
+#[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "one for a character; a box would be made amid a run")]
+pub(super) enum Transition {
+    InertialBlend(InertialBlend),
+    GetUp(GetUp),
+}
+
+impl Transition {
+    /// From where a body is, by getting up where it lies; with the velocities of its hips and of the wanted ones \[m/s\].
+    pub(super) fn from_body(body: &Body, poses: [&Pose; 2], velocities: [DVec3; 2], over_secs: f64) -> Transition {
+        let ([pose, wanted], [velocity, wanted_velocity]) = (poses, velocities);
+        if GetUp::is_from(body, pose) {
+            Transition::GetUp(GetUp::between(body, pose, wanted, velocity, over_secs))
+        } else {
+            Transition::InertialBlend(InertialBlend::between(body, pose, wanted, velocity - wanted_velocity, over_secs))
+        }
+    }
+
+    /// A step goes by; the pose at its end.
+    pub(super) fn step(&mut self, body: &Body, wanted: &Pose, step_secs: f64) -> Pose {
+        match self {
+            Transition::InertialBlend(slide) => slide.step(body, wanted, step_secs),
+            Transition::GetUp(rise) => rise.step(body, wanted, step_secs),
+        }
+    }
+
+    /// How far it has come, 0 to 1.
+    pub(super) fn progress(&self) -> f64 {
+        match self {
+            Transition::InertialBlend(slide) => slide.progress(),
+            Transition::GetUp(rise) => rise.progress(),
+        }
+    }
+
+    pub(super) fn is_over(&self) -> bool {
+        match self {
+            Transition::InertialBlend(slide) => slide.is_over(),
+            Transition::GetUp(rise) => rise.is_over(),
+        }
+    }
+}
