@@ -48,7 +48,7 @@ fn character(hips: DVec3, facing_rad: f64) -> CharacterFrame {
         centre_velocity: DVec3::ZERO,
         facing: locals[0] * DVec3::Z,
         support: Vec::new(),
-        spent: CharacterFrame::EMPTY.external,
+        external: CharacterFrame::EMPTY.external,
         was_reset: false,
     }
 }
