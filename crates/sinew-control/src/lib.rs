@@ -3,6 +3,7 @@
 mod command;
 pub mod graph;
 pub mod ik;
+mod order_error;
 pub mod perform;
 pub mod pose;
 mod reach_order;
@@ -12,6 +13,7 @@ pub mod tracker;
 
 pub use command::{Action, Command, Layer};
 pub use graph::GraphSpec;
+pub use order_error::{OrderError, OrderErrorKind};
 pub use pose::PoseSpec;
 pub use reach_order::{ReachHand, ReachOrder};
 pub use target::{JointTarget, Target};
