@@ -1,0 +1,78 @@
+//! One list of fields for both directions.
+
+/// Implements [`crate::Snapshot`] for a struct or an enum from one list of its fields.
+///
+/// A struct names its state, and behind `fixed` what is not saved because it does not change while a simulation runs. The list
+/// is complete: a field that stands in neither is an error of the compiler.
+///
+/// ```
+/// # use sinew_snapshot::snapshot;
+/// struct Filter {
+///     cutoff_hz: f64,
+///     last: Option<f64>,
+/// }
+/// snapshot!(Filter { last } fixed { cutoff_hz });
+/// ```
+///
+/// An enum names all its variants, each with the number that stands for it in the bytes. Fields of a variant need a `Default`,
+/// because restoring may change the variant.
+///
+/// ```
+/// # use sinew_snapshot::snapshot;
+/// enum Phase {
+///     Idle,
+///     Moving { since_secs: f64, from: [f64; 3] },
+///     Held(f64),
+/// }
+/// snapshot!(enum Phase { 0: Idle, 1: Moving { since_secs, from }, 2: Held(secs) });
+/// ```
+#[macro_export]
+macro_rules! snapshot {
+    (enum $name:ident { $( $tag:literal : $variant:ident $( { $($field:ident),* $(,)? } )? $( ( $($place:ident),* ) )? ),* $(,)? }) => {
+        impl $crate::Snapshot for $name {
+            fn save(&self, to: &mut $crate::Writer) {
+                match self {
+                    $( Self::$variant $( { $($field),* } )? $( ( $($place),* ) )? => {
+                        to.byte($tag);
+                        $( $( $crate::Snapshot::save($field, to); )* )?
+                        $( $( $crate::Snapshot::save($place, to); )* )?
+                    } )*
+                }
+            }
+            fn restore(&mut self, from: &mut $crate::Reader<'_>) -> Result<(), $crate::SnapshotError> {
+                *self = match from.byte()? {
+                    $( $tag => {
+                        $( $( let $field = Default::default(); )* )?
+                        $( $( let $place = Default::default(); )* )?
+                        // What the fields are is known only from the variant; a borrow of it has their types.
+                        #[allow(unused_mut, reason = "a variant without fields has nothing to restore")]
+                        let mut variant = Self::$variant $( { $($field),* } )? $( ( $($place),* ) )?;
+                        #[allow(irrefutable_let_patterns, reason = "an enum of one variant")]
+                        if let Self::$variant $( { $($field),* } )? $( ( $($place),* ) )? = &mut variant {
+                            $( $( $crate::Snapshot::restore($field, from)?; )* )?
+                            $( $( $crate::Snapshot::restore($place, from)?; )* )?
+                        }
+                        variant
+                    } )*
+                    _ => return Err($crate::SnapshotError::invalid(concat!("variant of ", stringify!($name)))),
+                };
+                Ok(())
+            }
+        }
+    };
+    ($name:ident $(< $life:lifetime >)? { $($field:ident),* $(,)? } $( fixed { $($fixed:ident),* $(,)? } )?) => {
+        impl $crate::Snapshot for $name $(< $life >)? {
+            fn save(&self, to: &mut $crate::Writer) {
+                let Self { $($field,)* $( $($fixed: _,)* )? } = self;
+                let _ = &to;
+                $( $crate::Snapshot::save($field, to); )*
+            }
+            fn restore(&mut self, from: &mut $crate::Reader<'_>) -> Result<(), $crate::SnapshotError> {
+                let Self { $($field,)* $( $($fixed: _,)* )? } = self;
+                let _ = &from;
+                $( $crate::Snapshot::restore($field, from)?; )*
+                Ok(())
+            }
+        }
+    };
+}
