@@ -4,7 +4,7 @@ use crate::command::{self, cargo, output};
 use crate::{golden, readme, repository};
 
 /// Crates that others use alone, and the crates that these must not bring along.
-const ALONE: [(&str, &[&str]); 9] = [
+const ALONE: [(&str, &[&str]); 10] = [
     ("sinew-motion", &["ufbx", "serde_json", "base64"]),
     ("sinew-body", &["ufbx", "serde_json", "base64"]),
     ("sinew-response", &["ufbx", "serde_json", "base64", "clap", "tiny-skia"]),
@@ -14,6 +14,7 @@ const ALONE: [(&str, &[&str]); 9] = [
     ("sinew-stage", &["rustpython-vm", "clap", "tiny-skia"]),
     ("sinew-live", &["quinn", "tokio", "rustls", "rustpython-vm", "clap", "tiny-skia"]),
     ("sinew-picture", &["sinew-motion", "sinew-body"]),
+    ("sinew", &["anyhow", "clap", "indicatif", "rustpython-vm", "malachite-bigint", "quinn", "tokio", "rustls"]),
 ];
 
 /// Runs all of it, and stops at the first failure.

@@ -43,13 +43,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         footer: "A walker made of sines, drawn by the strip example of sinew-picture".to_owned(),
         width_px: 1800,
     };
-    let png = sheet.to_png()?;
+    let picture = sheet.draw()?;
+    let png = picture.to_png()?;
     let path = std::env::args().nth(1).map_or_else(|| std::env::temp_dir().join("strip.png"), Into::into);
     std::fs::write(&path, &png)?;
-    let picture = sheet.draw()?;
     println!("{}: {} × {} px, {} kB", path.display(), picture.width(), picture.height(), png.len() / 1000);
     let left = sinew_picture::Shade::Left.colour();
-    let blue = picture.pixels().iter().filter(|pixel| pixel.blue() > pixel.red().saturating_add(60)).count();
+    let blue = picture.rgba().chunks_exact(4).filter(|pixel| pixel[2] > pixel[0].saturating_add(60)).count();
     assert!(blue > 10_000, "the left limbs ({left:?}) should show");
     Ok(())
 }

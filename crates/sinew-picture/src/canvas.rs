@@ -133,8 +133,3 @@ fn path(spots: &[Spot], closed: bool) -> Option<tiny_skia::Path> {
     }
     builder.finish()
 }
-
-/// A finished picture as the bytes of a PNG file.
-pub(crate) fn encode(pixmap: &Pixmap) -> Result<Vec<u8>, Error> {
-    pixmap.encode_png().map_err(|error| Error::Encode(error.to_string()))
-}

@@ -1,12 +1,10 @@
 //! Motion as a row of moments.
 
 use glam::DVec3;
-use tiny_skia::Pixmap;
 
 use crate::arrow::Arrow;
-use crate::canvas::encode;
 use crate::limits::{MAX_WIDTH_PX, MIN_WIDTH_PX};
-use crate::{Camera, Error, Figure, strip};
+use crate::{Camera, Error, Figure, Image, strip};
 
 /// One moment of a motion.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -80,9 +78,9 @@ impl Filmstrip {
     ///
     /// # Errors
     /// When there is no memory for it.
-    pub fn draw(&self) -> Result<Pixmap, Error> {
+    pub fn draw(&self) -> Result<Image, Error> {
         let width = self.style.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
-        Ok(strip::Layout::new(self, width as f32).draw()?.pixmap)
+        Ok(Image(strip::Layout::new(self, width as f32).draw()?.pixmap))
     }
 
     /// Draws the picture as the bytes of a PNG file.
@@ -90,7 +88,7 @@ impl Filmstrip {
     /// # Errors
     /// When there is no memory for it, or the encoder fails.
     pub fn to_png(&self) -> Result<Vec<u8>, Error> {
-        encode(&self.draw()?)
+        self.draw()?.to_png()
     }
 
     /// Where a point of the world appears in panel `index` of the drawn picture \[px\], x right, y down; `None` for a

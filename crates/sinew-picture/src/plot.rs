@@ -1,10 +1,7 @@
 //! Values over time.
 
-use tiny_skia::Pixmap;
-
-use crate::canvas::encode;
 use crate::limits::{MAX_WIDTH_PX, MIN_WIDTH_PX};
-use crate::{Colour, Error, chart};
+use crate::{Colour, Error, Image, chart};
 
 /// One line of a plot.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -105,9 +102,9 @@ impl Plot {
     ///
     /// # Errors
     /// When there is no memory for it.
-    pub fn draw(&self) -> Result<Pixmap, Error> {
+    pub fn draw(&self) -> Result<Image, Error> {
         let width = self.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
-        Ok(chart::Chart::new(self, width as f32).draw()?.pixmap)
+        Ok(Image(chart::Chart::new(self, width as f32).draw()?.pixmap))
     }
 
     /// Draws the picture as the bytes of a PNG file.
@@ -115,7 +112,7 @@ impl Plot {
     /// # Errors
     /// When there is no memory for it, or the encoder fails.
     pub fn to_png(&self) -> Result<Vec<u8>, Error> {
-        encode(&self.draw()?)
+        self.draw()?.to_png()
     }
 
     /// Where a value appears in the drawn picture \[px\], x right, y down.

@@ -1,14 +1,12 @@
 //! Filmstrips and plots on one page.
 
-use tiny_skia::Pixmap;
-
-use crate::canvas::{Canvas, encode};
+use crate::canvas::Canvas;
 use crate::chart::Chart;
 use crate::colour::{HAIRLINE, INK_SOFT, PAPER};
 use crate::limits::{MAX_HEIGHT_PX, MAX_PIECES, MAX_WIDTH_PX, MIN_WIDTH_PX};
 use crate::strip::{self, paint_head};
 use crate::text::{Anchor, Type};
-use crate::{Error, Filmstrip, Plot};
+use crate::{Error, Filmstrip, Image, Plot};
 
 /// A part of a [`Sheet`].
 #[derive(Clone, Debug, PartialEq)]
@@ -102,7 +100,7 @@ impl Sheet {
     ///
     /// # Errors
     /// When there is no memory for it.
-    pub fn draw(&self) -> Result<Pixmap, Error> {
+    pub fn draw(&self) -> Result<Image, Error> {
         let width = self.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
         let unit = width as f32 / 1800.0;
         let laid: Vec<Laid> = self.pieces.iter().take(MAX_PIECES).map(|piece| Laid::new(piece, width as f32)).collect();
@@ -121,7 +119,7 @@ impl Sheet {
             top += piece.height();
         }
         self.paint_footer(&mut canvas, unit);
-        Ok(canvas.pixmap)
+        Ok(Image(canvas.pixmap))
     }
 
     fn paint_footer(&self, canvas: &mut Canvas, unit: f32) {
@@ -144,6 +142,6 @@ impl Sheet {
     /// # Errors
     /// When there is no memory for it, or the encoder fails.
     pub fn to_png(&self) -> Result<Vec<u8>, Error> {
-        encode(&self.draw()?)
+        self.draw()?.to_png()
     }
 }

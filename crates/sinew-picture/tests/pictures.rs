@@ -4,7 +4,7 @@ mod common;
 
 use glam::DVec3;
 use sinew_picture::{
-    Arrow, Camera, Capsule, Figure, Filmstrip, Limit, Mark, Panel, Pixmap, Plot, Series, Shade, Sheet, Style,
+    Arrow, Camera, Capsule, Figure, Filmstrip, Image, Limit, Mark, Panel, Plot, Series, Shade, Sheet, Style,
 };
 
 fn strip(panels: Vec<Panel>) -> Filmstrip {
@@ -20,18 +20,17 @@ fn trunk(shade: Shade) -> Capsule {
 }
 
 /// Red, green, blue at a spot.
-fn pixel(picture: &Pixmap, spot: (f32, f32)) -> [u8; 3] {
-    let pixel = picture.pixel(spot.0 as u32, spot.1 as u32).expect("the spot should lie in the picture");
-    [pixel.red(), pixel.green(), pixel.blue()]
+fn pixel(picture: &Image, spot: (f32, f32)) -> [u8; 3] {
+    picture.pixel(spot.0 as u32, spot.1 as u32).expect("the spot should lie in the picture")
 }
 
 fn is_arrow(pixel: [u8; 3]) -> bool {
     pixel[0] > 150 && pixel[1] < 90 && pixel[2] < 150
 }
 
-fn differing(one: &Pixmap, other: &Pixmap) -> usize {
+fn differing(one: &Image, other: &Image) -> usize {
     assert_eq!((one.width(), one.height()), (other.width(), other.height()));
-    one.pixels().iter().zip(other.pixels()).filter(|(one, other)| one != other).count()
+    one.rgba().chunks_exact(4).zip(other.rgba().chunks_exact(4)).filter(|(one, other)| one != other).count()
 }
 
 #[test]
@@ -276,7 +275,7 @@ fn a_sheet_holds_its_pieces_unchanged_from_top_to_bottom() {
     let plot = Plot { width_px: 900, ..plot() };
     let sheet = Sheet { pieces: vec![strip.clone().into(), plot.clone().into()], width_px: 900, ..Sheet::default() };
     let (sheet, strip, plot) = (sheet.draw().unwrap(), strip.draw().unwrap(), plot.draw().unwrap());
-    let cut = (strip.pixels().len(), plot.pixels().len());
-    assert!(sheet.pixels()[..cut.0] == *strip.pixels());
-    assert!(sheet.pixels()[cut.0..cut.0 + cut.1] == *plot.pixels());
+    let cut = (strip.rgba().len(), plot.rgba().len());
+    assert!(sheet.rgba()[..cut.0] == *strip.rgba());
+    assert!(sheet.rgba()[cut.0..cut.0 + cut.1] == *plot.rgba());
 }

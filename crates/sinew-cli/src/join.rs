@@ -1,7 +1,7 @@
 //! `sinew join`.
 
-use super::output;
-use super::run::{Out, press};
+use crate::output;
+use crate::run::{Out, press};
 use anyhow::{Context, Result, bail};
 use sinew::control::Command;
 use sinew::live::Port;
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 /// Arguments of `sinew join`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Join {
+pub(crate) struct Join {
     /// The token that `sinew serve` printed; or the server's HOST or HOST:PORT, with --token-file.
     server: String,
     /// The actor to play; may be repeated. Without it you watch, or operate with the operator's token.
@@ -53,7 +53,7 @@ const LOOK: Duration = Duration::from_millis(5);
 const MAX_LINES: usize = 100;
 
 impl Join {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         self.out.check(self.token_file.iter(), std::iter::empty())?;
         let token = self.token()?;
         // Opened first: nobody is to find out in the session that the port is taken.

@@ -1,6 +1,6 @@
 //! `-o`, `--report`, `--picture`: where results go.
 
-use super::output;
+use crate::output;
 use anyhow::{Context, Result, bail};
 use sinew::motion::formats::{Format, WriteJob, write};
 use sinew::run::{body_shapes, character_clip, csv, scene_clip};
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// Where results go.
 #[derive(Clone, Debug, Default, clap::Args)]
-pub(super) struct Files {
+pub(crate) struct Files {
     /// Where to write the motion; the extension tells the format: .bvh, .amc (with .asf), .glb or .gltf, of scenes and reaches
     /// .csv too; may be repeated.
     #[arg(short = 'o', long = "output", value_name = "OUT")]
@@ -55,7 +55,7 @@ impl Files {
 }
 
 /// Writes a recording as a file: of all in it, or of one character.
-pub(super) fn write_recording(path: &Path, recording: &Recording, character: Option<&str>) -> Result<()> {
+pub(crate) fn write_recording(path: &Path, recording: &Recording, character: Option<&str>) -> Result<()> {
     output::make_folder(path)?;
     if is_csv(path) {
         if character.is_some() {

@@ -1,7 +1,7 @@
 //! Numbers in a range: clap names the flag, this says what to give.
 
 /// A parser of numbers from `FROM` to `TO`, both in hundredths.
-pub(super) fn within<const FROM: i64, const TO: i64>(text: &str) -> Result<f64, String> {
+pub(crate) fn within<const FROM: i64, const TO: i64>(text: &str) -> Result<f64, String> {
     let (from, to) = (FROM as f64 / 100.0, TO as f64 / 100.0);
     let value: Option<f64> = text.trim().parse().ok();
     value.filter(|value| (from..=to).contains(value)).ok_or_else(|| format!("give a number from {from} to {to}"))

@@ -1,8 +1,10 @@
 //! `sinew inspect` and `sinew convert` as their user runs them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-#[path = "common/command.rs"]
+#[path = "command/command.rs"]
 mod command;
+// The captured clips are found as the claims find them.
+#[path = "../../sinew/tests/common/mod.rs"]
 mod common;
 
 use command::sinew;

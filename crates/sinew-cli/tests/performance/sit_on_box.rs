@@ -1,6 +1,6 @@
 //! The support moves from the ground to a box and back, which Nguyen et al. 2010, section 7, name as what their system cannot do.
 
-#[path = "../common/files.rs"]
+#[path = "../../../sinew/tests/common/files.rs"]
 #[allow(dead_code, reason = "other tests use the rest")]
 mod files;
 

@@ -1,8 +1,8 @@
 //! `sinew serve`.
 
-use super::output;
-use super::run::{Out, assignment, script_host};
-use super::session::Session;
+use crate::output;
+use crate::run::{Out, assignment, script_host};
+use crate::session::Session;
 use anyhow::{Context, Result};
 use sinew::session::{Role, SceneManifest, ServeJob, Server, ServerSettings, limits, serve};
 use sinew::stage::Scene;
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `sinew serve`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Serve {
+pub(crate) struct Serve {
     /// The scene file.
     scene: PathBuf,
     /// The address to bind, with or without a port; 0.0.0.0 lets every machine of the network in. Loopback, which lets nobody
@@ -50,7 +50,7 @@ fn bind(text: &str) -> Result<SocketAddr, String> {
 }
 
 impl Serve {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         self.out.check([&self.scene].into_iter(), self.take.iter().chain(&self.token_file))?;
         let mut scene = Scene::read(&self.scene)?;
         for (path, value) in &self.set {

@@ -5,7 +5,7 @@ use sinew::motion::Part;
 use sinew::response::{GroundJerk, Push, PushFrame};
 
 /// Parses a push: `part=` and `force=` are needed; `at=`, `for=`, `point=` and `frame=` have defaults.
-pub(super) fn push(text: &str) -> Result<Push, String> {
+pub(crate) fn push(text: &str) -> Result<Push, String> {
     let mut fields = Fields::of(text, &["part", "force", "at", "for", "frame", "point"])?;
     let part: Part = fields.needed("part")?.parse().map_err(|error: sinew::motion::UnknownPart| error.to_string())?;
     Ok(Push {
@@ -19,7 +19,7 @@ pub(super) fn push(text: &str) -> Result<Push, String> {
 }
 
 /// Parses a jerk of the ground: `accel=` is needed.
-pub(super) fn ground(text: &str) -> Result<GroundJerk, String> {
+pub(crate) fn ground(text: &str) -> Result<GroundJerk, String> {
     let mut fields = Fields::of(text, &["accel", "at", "for", "frame"])?;
     Ok(GroundJerk {
         acceleration: vector(fields.needed("accel")?, "accel")?,
@@ -30,7 +30,7 @@ pub(super) fn ground(text: &str) -> Result<GroundJerk, String> {
 }
 
 /// Parses `A..B`, frames from 0, both ends in.
-pub(super) fn cycle(text: &str) -> Result<(usize, usize), String> {
+pub(crate) fn cycle(text: &str) -> Result<(usize, usize), String> {
     let parsed = text.split_once("..").and_then(|(first, last)| Some((first.parse().ok()?, last.parse().ok()?)));
     parsed
         .filter(|(first, last)| first < last)
@@ -81,7 +81,7 @@ fn number(text: &str, what: &str) -> Result<f64, String> {
     if value.abs() > LARGEST { Err(format!("{what}: {text} is more than {LARGEST:e}")) } else { Ok(value) }
 }
 
-pub(super) fn vector(text: &str, what: &str) -> Result<DVec3, String> {
+pub(crate) fn vector(text: &str, what: &str) -> Result<DVec3, String> {
     let parts: Vec<f64> = text.split(':').map(|part| number(part, what)).collect::<Result<_, _>>()?;
     match parts[..] {
         [x, y, z] => Ok(DVec3::new(x, y, z)),

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// Arguments about performers.
 #[derive(Debug, clap::Args)]
-pub(super) struct LiveArguments {
+pub(crate) struct LiveArguments {
     /// The address of this machine on which performers are listened for; 0.0.0.0 lets other machines in.
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     listen: IpAddr,
@@ -27,7 +27,7 @@ pub(super) struct LiveArguments {
 }
 
 /// Ports, viewers and the take below.
-pub(super) struct Live {
+pub(crate) struct Live {
     performers: Performers,
     mirrors: Vec<Mirror>,
     below: Vec<Stamped>,
@@ -36,7 +36,7 @@ pub(super) struct Live {
 
 impl LiveArguments {
     /// Opens what the scene and the arguments ask for.
-    pub(super) fn open(&self, scene: &Scene) -> Result<Live> {
+    pub(crate) fn open(&self, scene: &Scene) -> Result<Live> {
         let below = self.below(scene)?;
         let mut performed: Vec<String> = below
             .iter()
@@ -90,7 +90,7 @@ fn mirror(scene: &Scene, argument: &str) -> Result<Mirror> {
 }
 
 /// The address behind HOST:PORT.
-pub(super) fn resolve(text: &str) -> Result<SocketAddr> {
+pub(crate) fn resolve(text: &str) -> Result<SocketAddr> {
     let mut found =
         text.to_socket_addrs().with_context(|| format!("{text}: write HOST:PORT, such as 127.0.0.1:39539"))?;
     found.next().with_context(|| format!("{text}: no such host"))
@@ -98,12 +98,12 @@ pub(super) fn resolve(text: &str) -> Result<SocketAddr> {
 
 impl Live {
     /// Whether somebody may perform, so that the stage must keep to the clock.
-    pub(super) fn keeps_time(&self) -> bool {
+    pub(crate) fn keeps_time(&self) -> bool {
         !self.performers.is_empty()
     }
 
     /// The frame of the step before is there.
-    pub(super) fn after_step(&mut self, stage: &Stage) {
+    pub(crate) fn after_step(&mut self, stage: &Stage) {
         if stage.frame().step.is_multiple_of(self.steps_per_frame) {
             for mirror in &mut self.mirrors {
                 mirror.send(stage);
@@ -113,7 +113,7 @@ impl Live {
     }
 
     /// What has arrived and what the take below says goes into the next step.
-    pub(super) fn before_step(&mut self, stage: &mut Stage) {
+    pub(crate) fn before_step(&mut self, stage: &mut Stage) {
         let step = stage.frame().step;
         for stamped in due(&self.below, step) {
             stage.command(Command::clone(&stamped.command));
@@ -122,7 +122,7 @@ impl Live {
     }
 
     /// The ports, for the report.
-    pub(super) fn performers(&self) -> &Performers {
+    pub(crate) fn performers(&self) -> &Performers {
         &self.performers
     }
 }

@@ -1,9 +1,9 @@
 //! `sinew run` and `sinew replay`.
 
-use super::files::{Files, write_recording};
-use super::live::LiveArguments;
-use super::output;
-use super::session::Session;
+use crate::files::{Files, write_recording};
+use crate::live::LiveArguments;
+use crate::output;
+use crate::session::Session;
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use sinew::run::{Ran, RunJob, replay, run, sheet};
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// Arguments of `sinew run`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Run {
+pub(crate) struct Run {
     /// The scene file.
     scene: PathBuf,
     /// How long to run \[s\] instead of the scene's own duration.
@@ -44,7 +44,7 @@ pub(super) struct Run {
 
 /// Arguments of `sinew replay`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Replay {
+pub(crate) struct Replay {
     /// The take to play again.
     take: PathBuf,
     /// Change a value of its scene first, such as characters.left.pose_gain=2; may be repeated.
@@ -56,7 +56,7 @@ pub(super) struct Replay {
 
 /// Where results go.
 #[derive(Debug, clap::Args)]
-pub(super) struct Out {
+pub(crate) struct Out {
     #[command(flatten)]
     files: Files,
     /// Write only this character's motion; .bvh and .amc hold one.
@@ -64,12 +64,12 @@ pub(super) struct Out {
     character: Option<String>,
 }
 
-pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
+pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
     let (path, value) = text.split_once('=').ok_or("write PATH=VALUE, such as characters.left.pose_gain=2")?;
     Ok((path.trim().to_owned(), value.trim().to_owned()))
 }
 
-pub(super) fn press(text: &str) -> Result<(f64, String), String> {
+pub(crate) fn press(text: &str) -> Result<(f64, String), String> {
     let usage = "write KEY@SECONDS, such as b@1.5";
     let (key, secs) = text.rsplit_once('@').ok_or(usage)?;
     let secs: f64 = secs.parse().map_err(|_| usage)?;
@@ -77,7 +77,7 @@ pub(super) fn press(text: &str) -> Result<(f64, String), String> {
 }
 
 impl Run {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         self.out.check([&self.scene].into_iter(), self.take.iter())?;
         let mut scene = Scene::read(&self.scene)?;
         for (path, value) in &self.set {
@@ -114,7 +114,7 @@ impl Run {
 }
 
 impl Replay {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         self.out.check([&self.take].into_iter(), std::iter::empty())?;
         let take = Take::open(&self.take)?;
         let folder = self.take.parent();
@@ -149,7 +149,7 @@ impl Replay {
 }
 
 impl Out {
-    pub(super) fn check<'a>(
+    pub(crate) fn check<'a>(
         &'a self,
         inputs: impl Iterator<Item = &'a PathBuf>,
         more: impl Iterator<Item = &'a PathBuf>,
@@ -165,17 +165,17 @@ impl Out {
     }
 
     /// Whether anything is asked for that needs the motion.
-    pub(super) fn needs_motion(&self) -> bool {
+    pub(crate) fn needs_motion(&self) -> bool {
         !self.files.motions.is_empty() || self.files.picture.is_some()
     }
 
     /// Where results go.
-    pub(super) fn files(&self) -> &Files {
+    pub(crate) fn files(&self) -> &Files {
         &self.files
     }
 
     /// Motion files and the picture.
-    pub(super) fn write_motion(&self, recording: &Recording, scene: &Scene, subtitle: &str) -> Result<()> {
+    pub(crate) fn write_motion(&self, recording: &Recording, scene: &Scene, subtitle: &str) -> Result<()> {
         for path in &self.files.motions {
             write_recording(path, recording, self.character.as_deref())?;
         }
@@ -230,7 +230,7 @@ impl Out {
 }
 
 /// This program itself runs Python controllers, in a process of their own; one that was built without Python refuses them.
-pub(super) fn script_host() -> Option<ScriptHost> {
+pub(crate) fn script_host() -> Option<ScriptHost> {
     let program = std::env::current_exe().ok()?;
     let args = vec!["script-host".to_owned()];
     cfg!(feature = "python").then(|| ScriptHost { program, args, limits: Limits::default() })

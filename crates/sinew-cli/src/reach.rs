@@ -1,9 +1,9 @@
 //! `sinew reach`.
 
-use super::files::{Files, write_recording};
-use super::number::within;
-use super::reach_argument::{ball, from, moving, point};
-use super::{Reading, Who, output};
+use crate::files::{Files, write_recording};
+use crate::number::within;
+use crate::reach_argument::{ball, from, moving, point};
+use crate::{Reading, Who, output};
 use anyhow::{Context, Result};
 use clap::ValueEnum;
 use glam::DVec3;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `sinew reach`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Reach {
+pub(crate) struct Reach {
     /// The target in metres: x to the character's left, y up from the floor, z forward from between the feet.
     #[arg(long, value_name = "X:Y:Z", value_parser = point, allow_hyphen_values = true)]
     target: Option<DVec3>,
@@ -79,7 +79,7 @@ enum HandName {
 }
 
 impl Reach {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         let clip = self.from.as_ref().map(|(path, _)| path);
         self.files.check_places(clip.into_iter().chain(&self.reading.skeleton), std::iter::empty())?;
         self.files.check_recorded()?;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Prints to standard output; an error when nobody reads any more.
-pub(super) fn say(text: &str) -> Result<()> {
+pub(crate) fn say(text: &str) -> Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
     out.write_all(b"\n")?;
@@ -17,25 +17,25 @@ pub(super) fn say(text: &str) -> Result<()> {
 }
 
 /// Whether an error is only that the reader of our output has gone.
-pub(super) fn is_broken_pipe(error: &anyhow::Error) -> bool {
+pub(crate) fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }
 
 /// Writes a value as JSON with line breaks.
-pub(super) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
+pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     let mut text = serde_json::to_vec_pretty(value)?;
     text.push(b'\n');
     write_bytes(path, &text)
 }
 
 /// Writes a file whole or not at all, making its folder.
-pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
+pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     make_folder(path)?;
     Ok(write_whole(path, bytes)?)
 }
 
 /// Refuses to write over what is read, or two results to one place: nobody's work is lost by a slip.
-pub(super) fn check_places<'a>(
+pub(crate) fn check_places<'a>(
     inputs: impl Iterator<Item = &'a PathBuf>,
     outputs: impl Iterator<Item = &'a PathBuf>,
 ) -> Result<()> {
@@ -62,7 +62,7 @@ pub(super) fn check_places<'a>(
 }
 
 /// Refuses a motion file to write whose format cannot be written, before any work is done.
-pub(super) fn check_format(path: &Path) -> Result<()> {
+pub(crate) fn check_format(path: &Path) -> Result<()> {
     match Format::of(path) {
         Some(Format::Fbx) | None => {
             bail!("{}: motion is written as .bvh, .amc (with .asf), .glb or .gltf", path.display())
@@ -72,7 +72,7 @@ pub(super) fn check_format(path: &Path) -> Result<()> {
 }
 
 /// Makes the folder that a file is to be in.
-pub(super) fn make_folder(path: &Path) -> Result<()> {
+pub(crate) fn make_folder(path: &Path) -> Result<()> {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => std::fs::create_dir_all(folder)
             .with_context(|| format!("{}: cannot make the folder; choose another place", folder.display())),
@@ -81,7 +81,7 @@ pub(super) fn make_folder(path: &Path) -> Result<()> {
 }
 
 /// A spinner on a terminal that says what takes so long; nothing when piped.
-pub(super) fn spinner() -> ProgressBar {
+pub(crate) fn spinner() -> ProgressBar {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
         bar.set_style(style);

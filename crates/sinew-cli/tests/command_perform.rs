@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
-#[path = "common/command.rs"]
+#[path = "command/command.rs"]
 mod command;
 
 use command::{json, sinew};

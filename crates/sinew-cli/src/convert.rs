@@ -1,6 +1,6 @@
 //! `sinew convert`.
 
-use super::{Reading, output};
+use crate::{Reading, output};
 use anyhow::{Context, Result, bail};
 use sinew::body::humanoid::{Person, Reduction};
 use sinew::figure::body_shapes;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// Arguments of `sinew convert`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Convert {
+pub(crate) struct Convert {
     /// The motion file to read: .bvh, .amc, .glb, .gltf or .fbx.
     input: PathBuf,
     /// The motion file to write: .bvh, .amc (with .asf), .glb or .gltf.
@@ -23,7 +23,7 @@ pub(super) struct Convert {
 }
 
 impl Convert {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         output::check_places([&self.input].into_iter().chain(&self.reading.skeleton), [&self.output].into_iter())?;
         output::check_format(&self.output)?;
         let file = MotionFile::read(&self.input, &self.reading.options())?;

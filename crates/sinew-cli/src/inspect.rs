@@ -1,6 +1,6 @@
 //! `sinew inspect`.
 
-use super::{Reading, Who, output};
+use crate::{Reading, Who, output};
 use anyhow::Result;
 use sinew::inspect::{Inspection, inspect};
 use sinew::motion::formats::MotionFile;
@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// Arguments of `sinew inspect`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Inspect {
+pub(crate) struct Inspect {
     /// A motion file: .bvh, .amc, .glb, .gltf or .fbx.
     file: PathBuf,
     /// Print JSON for programs.
@@ -22,7 +22,7 @@ pub(super) struct Inspect {
 }
 
 impl Inspect {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         let file = MotionFile::read(&self.file, &self.reading.options())?;
         let inspection = inspect(&file, self.who.person());
         if self.json {

@@ -1,8 +1,8 @@
 //! `sinew respond`.
 
-use super::files::Files;
-use super::push_argument::{cycle, ground, push};
-use super::{Reading, Who, output};
+use crate::files::Files;
+use crate::push_argument::{cycle, ground, push};
+use crate::{Reading, Who, output};
 use anyhow::{Context, Result};
 use clap::ValueEnum;
 use glam::DVec3;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `sinew respond`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Respond {
+pub(crate) struct Respond {
     /// The clip to push: .bvh, .amc, .glb, .gltf or .fbx. Without one, the sample walk.
     clip: Option<PathBuf>,
     /// A push, such as part=leftHand,force=0:0:-100,at=1.0,for=0.1[,frame=world][,point=x:y:z]; may be repeated.
@@ -82,7 +82,7 @@ const SHOW: Push = Push {
 };
 
 impl Respond {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         let shows = self.clip.is_none() && self.push.is_empty() && self.platform.is_empty();
         let pushes = if shows { vec![SHOW] } else { self.push.clone() };
         let inputs = self.clip.iter().chain(&self.basis).chain(&self.reading.skeleton);

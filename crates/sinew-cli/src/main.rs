@@ -1,4 +1,4 @@
-//! The command line: arguments in, jobs of the library, words out.
+//! The `sinew` command: arguments in, jobs of the library, words out.
 
 mod convert;
 mod files;
@@ -98,7 +98,7 @@ impl Who {
 }
 
 /// Runs the command: 0 done, 1 failed, 2 wrong usage (clap's own).
-pub(crate) fn run() -> ExitCode {
+fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Inspect(command) => command.run(),
         Command::Convert(command) => command.run(),

@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::{Duration, Instant, SystemTime};
 
 /// What happens around the steps of a run in real time.
-pub(super) struct Session {
+pub(crate) struct Session {
     began: Option<Instant>,
     lines: Receiver<String>,
     /// Controllers with a file: name, place, when it was last changed.
@@ -24,7 +24,7 @@ const MAX_LINES: usize = 100;
 const LOOK: Duration = Duration::from_millis(200);
 
 impl Session {
-    pub(super) fn begin(scene: &Scene) -> Session {
+    pub(crate) fn begin(scene: &Scene) -> Session {
         let (sender, lines) = sync_channel(MAX_LINES);
         // It ends with the program, or with the input.
         std::thread::spawn(move || {
@@ -43,7 +43,7 @@ impl Session {
     }
 
     /// Waits until the step's time has come, obeys what was typed, reloads what was edited, and tells what happened.
-    pub(super) fn before_step(&mut self, stage: &mut Stage) {
+    pub(crate) fn before_step(&mut self, stage: &mut Stage) {
         let began = *self.began.get_or_insert_with(Instant::now);
         let due = Duration::from_secs_f64(stage.frame().time_secs);
         std::thread::sleep(due.saturating_sub(began.elapsed()));

@@ -1,7 +1,7 @@
 //! `sinew perform`.
 
-use super::live::resolve;
-use super::{Reading, output};
+use crate::live::resolve;
+use crate::{Reading, output};
 use anyhow::{Context, Result, bail};
 use sinew::live::{ClipPlayer, Impairment, RawPlayer};
 use sinew::motion::Limits;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 /// Arguments of `sinew perform`.
 #[derive(Debug, clap::Args)]
-pub(super) struct Perform {
+pub(crate) struct Perform {
     /// The motion file to play, forwards and backwards in turn; a walk that Sinew makes itself when left out.
     clip: Option<PathBuf>,
     /// Where to: udp://127.0.0.1:39539 sends VMC; tcp://127.0.0.1:39541 sends a BVH raw, as some suits do, at its own rate.
@@ -63,7 +63,7 @@ fn millis(text: &str) -> Result<f64, String> {
 }
 
 impl Perform {
-    pub(super) fn run(&self) -> Result<()> {
+    pub(crate) fn run(&self) -> Result<()> {
         if self.for_secs.is_some_and(|secs| !(0.0..=1e9).contains(&secs)) {
             bail!("--for is out of range; give seconds");
         }
