@@ -2,8 +2,8 @@
 
 use crate::output;
 use anyhow::{Context, Result, bail};
+use sinew::jobs::run::{body_shapes, character_clip, csv, scene_clip};
 use sinew::motion::formats::{Format, WriteJob, write};
-use sinew::run::{body_shapes, character_clip, csv, scene_clip};
 use sinew::stage::{RecordedCharacter, Recording};
 use std::path::{Path, PathBuf};
 

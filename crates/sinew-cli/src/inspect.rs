@@ -2,7 +2,7 @@
 
 use crate::{Reading, Who, output};
 use anyhow::Result;
-use sinew::inspect::{Inspection, inspect};
+use sinew::jobs::inspect::{Inspection, inspect};
 use sinew::motion::formats::MotionFile;
 use std::fmt::Write;
 use std::path::PathBuf;

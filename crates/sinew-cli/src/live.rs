@@ -4,7 +4,7 @@ use anyhow::{Context, Result, bail};
 use sinew::control::{Action, Command};
 use sinew::live::{Mirror, Performers};
 use sinew::stage::take::{Stamped, due};
-use sinew::stage::{Scene, Stage, Take};
+use sinew::stage::{Observer, Scene, Stage, Take};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, ToSocketAddrs};
 use std::path::PathBuf;
 
@@ -102,8 +102,14 @@ impl Live {
         !self.performers.is_empty()
     }
 
-    /// The frame of the step before is there.
-    pub(crate) fn after_step(&mut self, stage: &Stage) {
+    /// The ports, for the report.
+    pub(crate) fn performers(&self) -> &Performers {
+        &self.performers
+    }
+}
+
+impl Observer for Live {
+    fn after_step(&mut self, stage: &Stage) {
         if stage.frame().step.is_multiple_of(self.steps_per_frame) {
             for mirror in &mut self.mirrors {
                 mirror.send(stage);
@@ -113,16 +119,14 @@ impl Live {
     }
 
     /// What has arrived and what the take below says goes into the next step.
-    pub(crate) fn before_step(&mut self, stage: &mut Stage) {
+    fn before_step(&mut self, stage: &mut Stage) {
         let step = stage.frame().step;
+        if step == 0 {
+            self.after_step(stage);
+        }
         for stamped in due(&self.below, step) {
             stage.command(Command::clone(&stamped.command));
         }
         self.performers.feed(stage);
-    }
-
-    /// The ports, for the report.
-    pub(crate) fn performers(&self) -> &Performers {
-        &self.performers
     }
 }

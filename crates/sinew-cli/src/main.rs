@@ -3,12 +3,14 @@
 mod convert;
 mod files;
 mod inspect;
+mod interactive;
 #[cfg(feature = "session")]
 mod join;
 mod live;
 mod number;
 mod output;
 mod perform;
+mod progress;
 mod push_argument;
 mod reach;
 mod reach_argument;
@@ -16,14 +18,12 @@ mod respond;
 mod run;
 #[cfg(feature = "session")]
 mod serve;
-mod session;
 
 use clap::{Parser, Subcommand};
 use number::within;
-use sinew::body::humanoid::ReductionError;
+use sinew::jobs::reach::ReachError;
+use sinew::jobs::respond::RespondError;
 use sinew::motion::formats::ReadOptions;
-use sinew::reach::ReachError;
-use sinew::respond::RespondError;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -127,11 +127,5 @@ fn main() -> ExitCode {
 
 /// Whether an error is about what was asked for, whatever the file.
 fn is_wrong_usage(error: &anyhow::Error) -> bool {
-    let responds = error.downcast_ref::<RespondError>();
-    let reaches = error.downcast_ref::<ReachError>();
-    matches!(responds, Some(RespondError::Settings(_) | RespondError::Body(ReductionError::Person { .. })))
-        || matches!(
-            reaches,
-            Some(ReachError::Style(_) | ReachError::Target(_) | ReachError::Body(ReductionError::Person { .. }))
-        )
+    error.downcast_ref().is_some_and(RespondError::is_of_job) || error.downcast_ref().is_some_and(ReachError::is_of_job)
 }

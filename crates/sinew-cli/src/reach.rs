@@ -7,9 +7,9 @@ use crate::{Reading, Who, output};
 use anyhow::{Context, Result};
 use clap::ValueEnum;
 use glam::DVec3;
+use sinew::jobs::reach::{Ball, Hand, MovingPoint, ReachJob, Reached, contact_sheet, reach, sheet};
 use sinew::motion::formats::MotionFile;
-use sinew::reach::{Ball, Hand, MovingPoint, ReachJob, Reached, contact_sheet, reach, sheet};
-use sinew::reaching::Style;
+use sinew::reach::Style;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `sinew reach`.

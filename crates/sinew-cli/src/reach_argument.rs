@@ -2,7 +2,7 @@
 
 use crate::push_argument::vector;
 use glam::DVec3;
-use sinew::reach::{Ball, MovingPoint};
+use sinew::jobs::reach::{Ball, MovingPoint};
 use std::path::PathBuf;
 
 const POINT: &str = "write X:Y:Z in metres, such as 0.4:1.9:0.5";

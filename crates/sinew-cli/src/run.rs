@@ -1,14 +1,14 @@
 //! `sinew run` and `sinew replay`.
 
 use crate::files::{Files, write_recording};
+use crate::interactive::Interactive;
 use crate::live::LiveArguments;
 use crate::output;
-use crate::session::Session;
+use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
-use sinew::run::{Ran, RunJob, replay, run, sheet};
+use sinew::jobs::run::{Ran, RunJob, replay, run, sheet};
 use sinew::script::{Limits, ScriptHost};
-use sinew::stage::{Recording, Scene, Take};
+use sinew::stage::{Observer, Recording, Scene, Take};
 use std::path::PathBuf;
 
 /// Arguments of `sinew run`.
@@ -83,26 +83,24 @@ impl Run {
         for (path, value) in &self.set {
             scene.set(path, value)?;
         }
-        let bar = bar();
         #[cfg(feature = "threads")]
         let threads = usize::from(self.threads);
         #[cfg(not(feature = "threads"))]
         let threads = 1;
-        let job = RunJob { for_secs: self.for_secs, host: script_host(), presses: self.press.clone(), threads };
         let for_picture = scene.clone();
         let mut live = self.live.open(&scene)?;
         let keeps_time = self.real_time || live.keeps_time();
-        let mut session = keeps_time.then(|| Session::begin(&scene));
-        let mut ran = run(scene, &job, |stage, done, of| {
-            live.after_step(stage);
-            match &mut session {
-                Some(session) => session.before_step(stage),
-                None => show(&bar, done, of),
-            }
-            live.before_step(stage);
-        })?;
+        let presses = self.press.clone();
+        let job = RunJob { for_secs: self.for_secs, host: script_host(), presses, threads, real_time: keeps_time };
+        let mut interactive = keeps_time.then(|| Interactive::begin(&scene));
+        let mut progress = Progress::of(job.steps(&scene)?);
+        let beside: &mut dyn Observer = match &mut interactive {
+            Some(interactive) => interactive,
+            None => &mut progress,
+        };
+        let mut ran = run(scene, &job, &mut [beside, &mut live])?;
+        drop(progress);
         ran.report.add_ports(live.performers());
-        bar.finish_and_clear();
         if let Some(path) = &self.take {
             output::make_folder(path)?;
             ran.take.write(path)?;
@@ -118,9 +116,7 @@ impl Replay {
         self.out.check([&self.take].into_iter(), std::iter::empty())?;
         let take = Take::open(&self.take)?;
         let folder = self.take.parent();
-        let bar = bar();
-        let ran = replay(&take, &self.set, folder, script_host(), |_, done, of| show(&bar, done, of))?;
-        bar.finish_and_clear();
+        let ran = replay(&take, &self.set, folder, script_host(), &mut [&mut Progress::of(take.steps)])?;
         let mut scene = take.to_scene(folder)?;
         for (path, value) in &self.set {
             scene.set(path, value)?;
@@ -245,22 +241,3 @@ fn first_difference(one: &Take, other: &Take) -> Option<u64> {
 
 /// Events that are printed.
 const MAX_LINES: usize = 30;
-
-/// A progress bar on a terminal, nothing when piped.
-fn bar() -> ProgressBar {
-    let bar = ProgressBar::new(0);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent} % {elapsed}, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
-}
-
-fn show(bar: &ProgressBar, done: u64, of: u64) {
-    if done.is_multiple_of(STEPS_PER_UPDATE) {
-        bar.set_length(of);
-        bar.set_position(done);
-    }
-}
-
-/// Steps between two looks of the progress bar.
-const STEPS_PER_UPDATE: u64 = 60;

@@ -1,10 +1,11 @@
 //! `sinew serve`.
 
+use crate::interactive::Interactive;
 use crate::output;
 use crate::run::{Out, assignment, script_host};
-use crate::session::Session;
 use anyhow::{Context, Result};
-use sinew::session::{Role, SceneManifest, ServeJob, Server, ServerSettings, limits, serve};
+use sinew::jobs::session::{ServeJob, serve};
+use sinew::live::session::{Role, SceneManifest, Server, ServerSettings, limits};
 use sinew::stage::Scene;
 use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
@@ -67,8 +68,8 @@ impl Serve {
             keeps_motion: self.out.needs_motion(),
         };
         let for_picture = scene.clone();
-        let mut keyboard = Session::begin(&scene);
-        let served = serve(scene, &job, &server, queue, |stage| keyboard.before_step(stage))?;
+        let mut keyboard = Interactive::begin(&scene);
+        let served = serve(scene, &job, &server, queue, &mut [&mut keyboard])?;
         drop(server);
         if let (Some(path), Some(take)) = (&self.take, &served.take) {
             output::make_folder(path)?;

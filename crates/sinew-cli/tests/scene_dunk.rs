@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use sinew::body::humanoid::Node;
-use sinew::run::{RunJob, run};
+use sinew::jobs::run::{RunJob, run};
 use sinew::script::{Limits, ScriptHost};
 use sinew::stage::Scene;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ fn the_ball_is_let_go_at_the_rim_and_drops_through_it_and_the_character_lands_on
     let rim = DVec3::from(scene.props["Rim"].position_m);
     let ring = scene.props["Rim"].ring.unwrap();
     let job = RunJob { host: Some(host()), ..RunJob::default() };
-    let ran = run(scene, &job, |_, _, _| ()).unwrap_or_else(|error| panic!("{error}"));
+    let ran = run(scene, &job, &mut []).unwrap_or_else(|error| panic!("{error}"));
 
     let when = |effect: &str| {
         let found = ran.report.events.iter().find(|event| event.effect.contains(effect));

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use sinew::body::humanoid::{Node, Pose};
-use sinew::run::{Ran, RunJob, run};
+use sinew::jobs::run::{Ran, RunJob, run};
 use sinew::stage::{RecordedCharacter, Scene};
 use std::path::Path;
 
@@ -14,7 +14,7 @@ mod reach;
 fn play(name: &str) -> Ran {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../scenes/{name}.toml"));
     let scene = Scene::read(&file).unwrap_or_else(|error| panic!("{error}"));
-    run(scene, &RunJob::default(), |_, _, _| ()).unwrap_or_else(|error| panic!("{name}: {error}"))
+    run(scene, &RunJob::default(), &mut []).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 fn character<'a>(ran: &'a Ran, name: &str) -> &'a RecordedCharacter {

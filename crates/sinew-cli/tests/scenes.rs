@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
-use sinew::run::{RunJob, replay, run};
+use sinew::jobs::run::{RunJob, replay, run};
 use sinew::script::{Limits, ScriptHost};
 use sinew::stage::{Scene, Take};
 use std::collections::BTreeMap;
@@ -40,11 +40,11 @@ fn every_scene_gives_the_bits_that_it_always_gave_and_replays_to_them() {
     for name in names() {
         let scene = Scene::read(&folder().join(format!("{name}.toml"))).unwrap_or_else(|error| panic!("{error}"));
         let job = RunJob { for_secs: Some(1.0), host: host(), ..RunJob::default() };
-        let ran = run(scene, &job, |_, _, _| ()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let ran = run(scene, &job, &mut []).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(ran.report.characters.values().all(|character| character.resets == 0), "{name}");
         let take = Take::read(&ran.take.to_bytes().unwrap()).unwrap();
         let again =
-            replay(&take, &[], Some(&folder()), host(), |_, _, _| ()).unwrap_or_else(|error| panic!("{name}: {error}"));
+            replay(&take, &[], Some(&folder()), host(), &mut []).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert_eq!(again.take.hash, take.hash, "{name}: the replay leaves the take");
         found.insert(name, ran.report.hash);
     }
@@ -60,9 +60,9 @@ fn every_scene_gives_the_bits_that_it_always_gave_and_replays_to_them() {
 fn a_replay_with_another_gain_is_another_run_of_the_same_commands() {
     let scene = Scene::read(&folder().join("block.toml")).unwrap();
     let job = RunJob { for_secs: Some(0.5), host: host(), ..RunJob::default() };
-    let ran = run(scene, &job, |_, _, _| ()).unwrap();
+    let ran = run(scene, &job, &mut []).unwrap();
     let sets = [("characters.left.pose_gain".to_owned(), "2".to_owned())];
-    let other = replay(&ran.take, &sets, Some(&folder()), host(), |_, _, _| ()).unwrap();
+    let other = replay(&ran.take, &sets, Some(&folder()), host(), &mut []).unwrap();
     assert_ne!(other.take.hash, ran.take.hash);
     assert_eq!(other.report.steps, ran.report.steps);
 }

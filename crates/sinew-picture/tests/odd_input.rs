@@ -130,7 +130,7 @@ fn a_long_recording_and_many_lines_can_be_plotted() {
     let picture = plot.draw().unwrap();
     let spot = plot.spot(400.0, 0.98);
     // The swings are far narrower than a pixel: the line covers all between its extremes.
-    assert!(picture.pixel(spot.0 as u32, spot.1 as u32).is_some_and(|pixel| pixel.blue() > pixel.red() + 60));
+    assert!(picture.pixel(spot.0 as u32, spot.1 as u32).is_some_and(|[red, _, blue]| blue > red + 60));
 
     let mark = |step: u32| Mark { from_secs: f64::from(step) * 0.001, to_secs: 0.9, label: format!("mark {step}") };
     let series = (0..500).map(|line| Series::new(format!("line {line}"), vec![(0.0, 0.0), (1.0, f64::from(line))]));

@@ -1,6 +1,7 @@
 //! A scene file becomes a running stage.
 //!
-//! [`scene`] reads the file, [`Stage`] runs it, [`take`] records what happened to it, [`Recording`] keeps what it showed.
+//! [`scene`] reads the file, [`Stage`] runs it, [`Runner`] stands around its steps: the pace of the clock,
+//! observers, the [`Recording`] of what it showed, the [`take`] of what happened to it.
 
 mod actor;
 mod apply_command;
@@ -14,6 +15,7 @@ mod event;
 mod fade;
 mod foot_lock;
 mod motion_source;
+mod pacer;
 mod performance;
 mod reach_aim;
 mod reach_back;
@@ -21,6 +23,7 @@ mod reach_through;
 mod reaching;
 mod reaction;
 mod recording;
+mod runner;
 pub mod scene;
 mod script_snapshot;
 mod scripts;
@@ -34,9 +37,11 @@ pub use build::StageError;
 pub use cast::Cast;
 pub use event::{Event, Events};
 pub use motion_source::MotionSource;
+pub use pacer::Pacer;
 pub use reach_back::{HAND_OVER_SECS, handed_over};
 pub use reaching::ReachNow;
 pub use recording::{RecordedCharacter, RecordedProp, Recording};
+pub use runner::{Finished, Observer, Runner};
 pub use scene::{Scene, SceneError, scene_schema};
 pub use stage::Stage;
 pub use take::{Take, TakeError};

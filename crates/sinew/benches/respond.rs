@@ -7,9 +7,9 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::DVec3;
+use sinew::jobs::respond::{RespondJob, respond};
 use sinew::motion::formats::{MotionFile, ReadOptions};
 use sinew::motion::{Part, find_cycle, repeat};
-use sinew::respond::{RespondJob, respond};
 use sinew::response::{Push, PushFrame};
 
 const SECS: f64 = 600.0;

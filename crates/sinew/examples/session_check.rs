@@ -8,7 +8,7 @@
 //! steps between the frame that the sender saw last and the changed one, less the time since that frame had arrived.
 
 use serde_json::Value;
-use sinew::session::reached;
+use sinew::jobs::session::first_effect;
 use sinew::stage::Take;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -96,7 +96,7 @@ fn in_time(take: &Take, server: &Value, round_trip_ms: f64, clients: &[Value]) -
             let seen = sent["seen_step"].as_u64().unwrap_or_default();
             let scene = take.to_scene(None)?;
             for other in scene.characters.keys().filter(|name| !own.contains(name)) {
-                let Some(reached) = reached(take, command, other, None)? else { continue };
+                let Some(reached) = first_effect(take, command, other, None)? else { continue };
                 let since = sent["since_ms"].as_f64().unwrap_or_default() / 1e3 * f64::from(take.physics_hz);
                 let steps = (reached - seen) as f64 - since;
                 checked += 1;

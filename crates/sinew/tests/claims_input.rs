@@ -6,8 +6,8 @@ mod common;
 use common::{Case, EVERY_CLIP, PERSON, every_bvh, mocap, none_of, read, work};
 use sinew::body::humanoid::{Node, Pose, log};
 use sinew::figure::body_shapes;
+use sinew::jobs::respond::{Answer, RespondJob, respond};
 use sinew::motion::{Clip, Part};
-use sinew::respond::{Answer, RespondJob, respond};
 use sinew::response::{Disturbances, Push, PushFrame, Settings, Track};
 use std::path::Path;
 

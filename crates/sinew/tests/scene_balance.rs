@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use sinew::body::humanoid::Node;
-use sinew::run::{Ran, RunJob, replay, run};
+use sinew::jobs::run::{Ran, RunJob, replay, run};
 use sinew::stage::Scene;
 use std::path::Path;
 
@@ -22,7 +22,7 @@ fn feet_moved_m(ran: &Ran) -> f64 {
 
 #[test]
 fn who_balances_is_pushed_from_four_sides_and_stands_where_it_stood() {
-    let balanced = run(scene("balance"), &RunJob::default(), |_, _, _| ()).unwrap();
+    let balanced = run(scene("balance"), &RunJob::default(), &mut []).unwrap();
     let one = &balanced.report.characters["one"];
     assert_eq!(balanced.report.events.len(), 4);
     // Standing hips are at 1.04 m.
@@ -32,7 +32,7 @@ fn who_balances_is_pushed_from_four_sides_and_stands_where_it_stood() {
 
     let mut without = scene("balance");
     without.set("characters.one.reflexes", "[]").unwrap();
-    let without = run(without, &RunJob::default(), |_, _, _| ()).unwrap();
+    let without = run(without, &RunJob::default(), &mut []).unwrap();
     assert!(without.report.characters["one"].hips_height_min_m < 0.5, "the pushes fell who does not balance");
 }
 
@@ -41,7 +41,7 @@ fn keys_choose_poses_pushes_and_layers_and_the_take_replays_them() {
     let press = |secs: f64, key: &str| (secs, key.to_owned());
     let presses = vec![press(1.0, "g"), press(2.0, "p"), press(4.0, "l"), press(4.2, "k"), press(6.0, "n")];
     let job = RunJob { presses, ..RunJob::default() };
-    let ran = run(scene("interactive"), &job, |_, _, _| ()).unwrap();
+    let ran = run(scene("interactive"), &job, &mut []).unwrap();
     let effects: Vec<&str> = ran.report.events.iter().map(|event| event.effect.as_str()).collect();
     assert_eq!(
         effects,
@@ -60,6 +60,6 @@ fn keys_choose_poses_pushes_and_layers_and_the_take_replays_them() {
             assert!(pair[0].local(node).angle_between(pair[1].local(node)) < 15.0 / 60.0, "{node:?}");
         }
     }
-    let again = replay(&ran.take, &[], None, None, |_, _, _| ()).unwrap();
+    let again = replay(&ran.take, &[], None, None, &mut []).unwrap();
     assert_eq!(again.take.hash, ran.take.hash);
 }

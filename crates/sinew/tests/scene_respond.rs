@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec3};
 use sinew::body::humanoid::{Node, Pose};
-use sinew::run::{Ran, RunJob, run};
+use sinew::jobs::run::{Ran, RunJob, run};
 use sinew::stage::Scene;
 use std::path::Path;
 
@@ -14,7 +14,7 @@ fn scene(name: &str) -> Scene {
 }
 
 fn ran(scene: Scene) -> Ran {
-    run(scene, &RunJob::default(), |_, _, _| ()).unwrap()
+    run(scene, &RunJob::default(), &mut []).unwrap()
 }
 
 fn poses<'a>(ran: &'a Ran, name: &str) -> &'a [Pose] {

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use sinew::body::humanoid::Node;
-use sinew::run::{Ran, RunJob, run};
+use sinew::jobs::run::{Ran, RunJob, run};
 use sinew::stage::Scene;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -18,7 +18,7 @@ const FREED: f64 = 15.4;
 static RAN: LazyLock<Ran> = LazyLock::new(|| {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/walk2d.toml");
     let scene = Scene::read(&file).unwrap_or_else(|error| panic!("{error}"));
-    run(scene, &RunJob::default(), |_, _, _| ()).unwrap_or_else(|error| panic!("{error}"))
+    run(scene, &RunJob::default(), &mut []).unwrap_or_else(|error| panic!("{error}"))
 });
 
 /// Where a part's joint is in every frame from one time to another \[m\].

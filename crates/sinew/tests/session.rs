@@ -1,9 +1,8 @@
 //! What one does on one machine reaches another who holds the same rope.
 #![cfg(feature = "session")]
 
-use sinew::session::{
-    Client, LinkConditions, Relay, Role, SceneManifest, ServeJob, Server, ServerSettings, Token, reached, serve,
-};
+use sinew::jobs::session::{ServeJob, first_effect, serve};
+use sinew::live::session::{Client, LinkConditions, Relay, Role, SceneManifest, Server, ServerSettings, Token};
 use sinew::stage::Scene;
 use std::time::Duration;
 
@@ -55,14 +54,14 @@ fn a_pull_reaches_the_other_within_two_steps_of_its_arrival() {
         (red.stats(), blue.stats())
     });
     let job = ServeJob { for_secs: Some(6.0), keeps_take: true, ..ServeJob::default() };
-    let served = serve(scene, &job, &server, queue, |_| ()).expect("it runs");
+    let served = serve(scene, &job, &server, queue, &mut []).expect("it runs");
     drop(server);
     let (red, blue) = actors.join().expect("the actors end well");
     let take = served.take.expect("it was asked for");
     assert_eq!(served.report.applied.len(), 3, "{red:?}");
     for (place, applied) in served.report.applied.iter().enumerate() {
         assert_eq!(take.commands[place].step, applied.step, "the take has it where it was applied");
-        let reached = reached(&take, place, "blue", None).expect("the take is sound").expect("the rope is taut");
+        let reached = first_effect(&take, place, "blue", None).expect("the take is sound").expect("the rope is taut");
         assert!(reached - applied.arrived_step <= 2, "{applied:?}, reached blue at {reached}");
     }
     for stats in [red, blue] {

@@ -3,8 +3,8 @@
 use super::{character, event, frame, path, prop};
 use glam::DVec3;
 use sinew::body::humanoid::Node;
-use sinew::reach::ReachReport;
-use sinew::run::{Ran, RunJob, run};
+use sinew::jobs::reach::ReachReport;
+use sinew::jobs::run::{Ran, RunJob, run};
 use sinew::script::{Limits, ScriptHost};
 use sinew::stage::Scene;
 use std::path::Path;
@@ -34,7 +34,7 @@ fn play(name: &str, sets: &[(&str, &str)]) -> Ran {
         scene.set(path, value).unwrap();
     }
     let job = RunJob { host: Some(host()), ..RunJob::default() };
-    run(scene, &job, |_, _, _| ()).unwrap_or_else(|error| panic!("{name}: {error}"))
+    run(scene, &job, &mut []).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 fn reaches<'a>(ran: &'a Ran, name: &str) -> &'a [ReachReport] {

@@ -2,9 +2,9 @@
 #![allow(dead_code, reason = "not every test needs all of it")]
 
 use sinew_live::session::{
-    Client, Pacer, Role, SceneManifest, Server, ServerCounts, ServerSettings, SessionError, SessionRunner, Token,
+    Client, Role, SceneManifest, Server, ServerCounts, ServerSettings, SessionError, SessionObserver, Token,
 };
-use sinew_stage::{Scene, Stage, Take};
+use sinew_stage::{Runner, Scene, Stage, Take};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -69,20 +69,14 @@ impl ServerState {
         let (server, queue) = Server::open(&settings, SceneManifest::of(&scene).unwrap()).unwrap();
         let ended = Arc::new(AtomicBool::new(false));
         let until = Arc::clone(&ended);
-        let mut take = Take::of(&scene);
         let stage = std::thread::spawn(move || {
-            let mut stage = Stage::new(scene, None).unwrap();
-            let mut session_runner = SessionRunner::new(queue, &stage);
-            let mut pacer = Pacer::new(0, stage.world().settings().step_secs());
+            let mut runner = Runner::new(Stage::new(scene, None).unwrap()).paced().with_take();
+            let mut session_observer = SessionObserver::new(queue, runner.stage());
             while !until.load(Ordering::Relaxed) {
-                pacer.wait(stage.frame().step);
-                session_runner.before_step(&mut stage);
-                stage.step();
-                session_runner.after_step(&stage);
+                runner.step(&mut [&mut session_observer]);
             }
-            take.commands = stage.record().to_vec();
-            (take.steps, take.hash) = (stage.frame().step, stage.hash());
-            Done { take, hashes: session_runner.hashes().clone(), applied: session_runner.applied().to_vec() }
+            let take = runner.take().unwrap();
+            Done { take, hashes: session_observer.hashes().clone(), applied: session_observer.applied().to_vec() }
         });
         ServerState { server, ended, stage: Some(stage) }
     }

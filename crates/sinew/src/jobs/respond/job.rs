@@ -1,7 +1,7 @@
 //! From a motion file and pushes to an answer.
 
 use super::answer::Answer;
-use sinew_body::humanoid::{Person, Reduction, ReductionError};
+use sinew_body::humanoid::{Person, Reduction, ReductionError, UPPER_DOFS};
 use sinew_motion::formats::MotionFile;
 use sinew_motion::{Clip, Error, Humanoid, Note, find_cycle, moves_from, repeat};
 use sinew_response::{
@@ -30,6 +30,7 @@ pub struct RespondJob {
 
 /// Why a clip cannot answer.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RespondError {
     /// The file, or the body in it.
     #[error(transparent)]
@@ -49,9 +50,37 @@ pub enum RespondError {
     /// Too much of it.
     #[error("{0} repetitions of {1} frames are more than {MAX_FRAMES} frames; repeat less often")]
     TooLong(usize, usize),
-    /// Settings that exclude each other or are out of range.
-    #[error("{0}")]
-    Settings(String),
+    /// More coordinates than the upper body has.
+    #[error("k = {0} is out of range: the upper body has {UPPER_DOFS} coordinates, so k is 0 to {UPPER_DOFS}")]
+    TooManyCoordinates(usize),
+    /// A compliance that is out of range, or NaN.
+    #[error(
+        "a compliance of {0} is out of range: {min} (stiff) to {max} (loose), 1 is the default",
+        min = Settings::MIN_COMPLIANCE,
+        max = Settings::MAX_COMPLIANCE
+    )]
+    Compliance(f64),
+    /// A compliance for a preset that has no such dial.
+    #[error("--compliance is the robust preset's dial; the paper's presets yield by -k")]
+    ComplianceOfPaperPreset,
+    /// The paper's counter-experiment with the preset that has none.
+    #[error("--coordinates high is the paper's counter-experiment; use it with --preset paper")]
+    HighCoordinatesOfRobustPreset,
+}
+
+impl RespondError {
+    /// Whether the job asks for what cannot be, whatever the file: [`RespondJob::settings`] or [`RespondJob::person`] out of range.
+    pub fn is_of_job(&self) -> bool {
+        use RespondError::{ComplianceOfPaperPreset, HighCoordinatesOfRobustPreset, TooManyCoordinates};
+        matches!(
+            self,
+            TooManyCoordinates(_)
+                | RespondError::Compliance(_)
+                | ComplianceOfPaperPreset
+                | HighCoordinatesOfRobustPreset
+                | RespondError::Body(ReductionError::Person { .. })
+        )
+    }
 }
 
 /// Runs the job. `basis_from` lends its coordinates of actuation, another person's or style's; else the clip's own are used.
@@ -136,24 +165,18 @@ impl Input {
 }
 
 fn check(settings: &Settings) -> Result<(), RespondError> {
-    let fail = |text: String| Err(RespondError::Settings(text));
-    if settings.k > sinew_body::humanoid::UPPER_DOFS {
-        return fail(format!("k = {} is out of range: the upper body has 24 coordinates, so k is 0 to 24", settings.k));
+    if settings.k > UPPER_DOFS {
+        return Err(RespondError::TooManyCoordinates(settings.k));
     }
     let dial = Settings::MIN_COMPLIANCE..=Settings::MAX_COMPLIANCE;
     if !dial.contains(&settings.compliance) {
-        return fail(format!(
-            "a compliance of {} is out of range: {} (stiff) to {} (loose), 1 is the default",
-            settings.compliance,
-            dial.start(),
-            dial.end()
-        ));
+        return Err(RespondError::Compliance(settings.compliance));
     }
     if settings.preset != Preset::Robust && settings.compliance != 1.0 {
-        return fail("--compliance is the robust preset's dial; the paper's presets yield by -k".to_owned());
+        return Err(RespondError::ComplianceOfPaperPreset);
     }
     if settings.coordinates == Coordinates::High && settings.preset == Preset::Robust {
-        return fail("--coordinates high is the paper's counter-experiment; use it with --preset paper".to_owned());
+        return Err(RespondError::HighCoordinatesOfRobustPreset);
     }
     Ok(())
 }

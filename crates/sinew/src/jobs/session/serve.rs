@@ -1,11 +1,10 @@
 //! A scene runs in real time for all who join.
 
-use crate::run::{MAX_SECS, RunError, RunReport, TRACE_STEPS};
+use crate::jobs::run::{RunError, RunReport};
 use serde::Serialize;
-use sinew_live::session::{AppliedCommand, Pacer, Server, ServerCounts, SessionRunner, StageQueue};
+use sinew_live::session::{AppliedCommand, Server, ServerCounts, SessionObserver, StageQueue};
 use sinew_script::ScriptHost;
-use sinew_stage::take::HashTrace;
-use sinew_stage::{Recording, Scene, Stage, Take};
+use sinew_stage::{Observer, Recording, Runner, Scene, Stage, Take};
 use std::collections::BTreeMap;
 
 /// How a scene is to be served.
@@ -47,16 +46,18 @@ pub struct ServeReport {
     pub hashes: BTreeMap<u64, String>,
 }
 
-/// Runs a scene at the pace of the clock until its time is over or somebody stops it. `told` is called before every step.
+/// Runs a scene at the pace of the clock until its time is over or somebody stops it. Commands that the observers
+/// give the stage before its steps go into the take.
 ///
 /// ```
-/// use sinew::session::{SceneManifest, ServeJob, Server, ServerSettings, serve};
+/// use sinew::jobs::session::{ServeJob, serve};
+/// use sinew::live::session::{SceneManifest, Server, ServerSettings};
 /// use sinew::stage::Scene;
 /// let scene = Scene::from_text("format = 1\n[characters.red]\n")?;
 /// let settings = ServerSettings { bind: "127.0.0.1:0".parse()?, ..ServerSettings::default() };
 /// let (server, queue) = Server::open(&settings, SceneManifest::of(&scene)?)?;
 /// let job = ServeJob { for_secs: Some(0.1), ..ServeJob::default() };
-/// let served = serve(scene, &job, &server, queue, |_| ())?;
+/// let served = serve(scene, &job, &server, queue, &mut [])?;
 /// assert_eq!(served.report.run.steps, 24);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -68,7 +69,7 @@ pub fn serve(
     job: &ServeJob,
     server: &Server,
     queue: StageQueue,
-    mut told: impl FnMut(&mut Stage),
+    observers: &mut [&mut dyn Observer],
 ) -> Result<Served, RunError> {
     if let Some(secs) = job.for_secs
         && !(secs > 0.0 && secs.is_finite())
@@ -77,48 +78,26 @@ pub fn serve(
     }
     let physics_hz = f64::from(scene.stage.physics_hz);
     let last = job.for_secs.map_or(u64::MAX, |secs| (secs * physics_hz).round().max(1.0) as u64);
-    let per_frame = u64::from(scene.stage.steps_per_frame());
-    let mut take = job.keeps_take.then(|| Take::of(&scene));
-    let mut stage = Stage::new(scene, job.host.clone())?;
-    stage.keep_record(job.keeps_take);
-    let mut recording = job.keeps_motion.then(|| Recording::new(&stage));
-    let mut report = RunReport::of(&stage);
-    let mut trace = Vec::new();
-    let mut session_runner = SessionRunner::new(queue, &stage);
-    let mut pacer = Pacer::new(0, stage.world().settings().step_secs());
-    if let Some(recording) = &mut recording {
-        recording.push(&stage);
+    let mut runner = Runner::new(Stage::new(scene, job.host.clone())?).paced();
+    if job.keeps_take {
+        runner = runner.with_take();
     }
-    while stage.frame().step < last && !session_runner.should_stop() {
-        pacer.wait(stage.frame().step);
-        told(&mut stage);
-        session_runner.before_step(&mut stage);
-        stage.step();
-        session_runner.after_step(&stage);
-        report.watch(&stage);
-        let step = stage.frame().step;
-        if let Some(recording) = &mut recording
-            && step.is_multiple_of(per_frame)
-            && stage.frame().time_secs <= MAX_SECS
-        {
-            recording.push(&stage);
-        }
-        if take.is_some() && step.is_multiple_of(TRACE_STEPS) {
-            trace.push(stage.hash());
-        }
+    if job.keeps_motion {
+        runner = runner.with_motion();
     }
-    report.finish(&stage);
-    if let Some(take) = &mut take {
-        take.commands = stage.record().to_vec();
-        (take.steps, take.hash) = (stage.frame().step, stage.hash());
-        take.trace = Some(HashTrace { every_steps: TRACE_STEPS, hashes: trace });
-    }
+    let mut report = RunReport::of(runner.stage());
+    let mut session = SessionObserver::new(queue, runner.stage());
+    let mut all: Vec<&mut dyn Observer> = observers.iter_mut().map(|one| &mut **one as &mut dyn Observer).collect();
+    all.extend([&mut session as &mut dyn Observer, &mut report]);
+    runner.run(last, &mut all);
+    report.finish(runner.stage());
+    let done = runner.finish();
     let report = ServeReport {
         run: report,
         clients: server.counts(),
-        applied: session_runner.applied().to_vec(),
-        lapses: pacer.lapses,
-        hashes: session_runner.hashes().clone(),
+        applied: session.applied().to_vec(),
+        lapses: done.lapses,
+        hashes: session.hashes().clone(),
     };
-    Ok(Served { report, recording, take })
+    Ok(Served { report, recording: done.recording, take: done.take })
 }

@@ -1,15 +1,14 @@
-//! A run at the pace of the clock, with somebody at the keyboard and an editor open beside it.
+//! Somebody at the keyboard of a run, with an editor open beside it.
 
 use sinew::control::{Action, Command};
-use sinew::stage::{Scene, Stage};
+use sinew::stage::{Observer, Scene, Stage};
 use std::io::BufRead;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::{Duration, Instant, SystemTime};
 
-/// What happens around the steps of a run in real time.
-pub(crate) struct Session {
-    began: Option<Instant>,
+/// Applies what is typed, reloads what is edited, and tells what happens.
+pub(crate) struct Interactive {
     lines: Receiver<String>,
     /// Controllers with a file: name, place, when it was last changed.
     files: Vec<(String, PathBuf, Option<SystemTime>)>,
@@ -23,8 +22,8 @@ const MAX_LINES: usize = 100;
 /// Time between two looks at the controllers' files.
 const LOOK: Duration = Duration::from_millis(200);
 
-impl Session {
-    pub(crate) fn begin(scene: &Scene) -> Session {
+impl Interactive {
+    pub(crate) fn begin(scene: &Scene) -> Interactive {
         let (sender, lines) = sync_channel(MAX_LINES);
         // It ends with the program, or with the input.
         std::thread::spawn(move || {
@@ -39,16 +38,14 @@ impl Session {
             let changed = changed(&path);
             Some((name.clone(), path, changed))
         });
-        Session { began: None, lines, files: files.collect(), looked: Instant::now(), told: 0 }
+        Interactive { lines, files: files.collect(), looked: Instant::now(), told: 0 }
     }
+}
 
-    /// Waits until the step's time has come, obeys what was typed, reloads what was edited, and tells what happened.
-    pub(crate) fn before_step(&mut self, stage: &mut Stage) {
-        let began = *self.began.get_or_insert_with(Instant::now);
-        let due = Duration::from_secs_f64(stage.frame().time_secs);
-        std::thread::sleep(due.saturating_sub(began.elapsed()));
+impl Observer for Interactive {
+    fn before_step(&mut self, stage: &mut Stage) {
         for line in self.lines.try_iter().take(MAX_LINES) {
-            obey(stage, line.trim());
+            apply(stage, line.trim());
         }
         if self.looked.elapsed() > LOOK {
             self.looked = Instant::now();
@@ -67,7 +64,7 @@ impl Session {
     }
 }
 
-fn obey(stage: &mut Stage, line: &str) {
+fn apply(stage: &mut Stage, line: &str) {
     if line.is_empty() {
         return;
     }

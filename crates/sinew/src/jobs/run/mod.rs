@@ -13,7 +13,5 @@ pub(crate) use draw::custom;
 pub use draw::{figure, sheet};
 pub use export::{body_shapes, character_clip, csv, scene_clip};
 pub use external_force::ExternalForceReport;
-#[cfg(feature = "session")]
-pub(crate) use job::{MAX_SECS, TRACE_STEPS};
 pub use job::{Ran, RunError, RunJob, replay, run};
 pub use report::RunReport;

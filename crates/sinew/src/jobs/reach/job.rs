@@ -79,19 +79,48 @@ pub struct Reached {
 
 /// Why a reach cannot be made.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReachError {
     /// A dial is out of range.
     #[error(transparent)]
     Style(#[from] StyleError),
-    /// Nothing to reach, or nothing that can be: what to do.
-    #[error("{0}")]
-    Target(String),
+    /// A target that is too far away, or NaN \[m\].
+    #[error("a target of {0} is out of range; give metres, at most {MAX_M:.0}")]
+    TargetOutOfRange(DVec3),
+    /// Neither hand has a target.
+    #[error("nothing to reach; give --target X:Y:Z in metres: x to the left, y up, z forward")]
+    NoTarget,
+    /// A time of a moving target that is negative, too late, or NaN \[s\].
+    #[error("a time of {0} s is out of range; it is 0 to {MAX_SECS:.0}")]
+    TimeOutOfRange(f64),
+    /// Times of a moving target that do not grow.
+    #[error("the times of --moving must grow from point to point")]
+    TimesNotGrowing,
+    /// The clip ends before it is to be left.
+    #[error("--from: the clip ends at {ends_secs:.2} s; leave it before, not at {from_secs} s")]
+    ClipEnds {
+        /// Its end \[s\].
+        ends_secs: f64,
+        /// When it was to be left \[s\].
+        from_secs: f64,
+    },
     /// The clip's skeleton is no body.
     #[error(transparent)]
     Body(#[from] ReductionError),
     /// The clip.
     #[error(transparent)]
     Clip(#[from] sinew_motion::Error),
+}
+
+impl ReachError {
+    /// Whether the job asks for what cannot be: a number of [`ReachJob`] out of range.
+    pub fn is_of_job(&self) -> bool {
+        !matches!(self, ReachError::Clip(_)) && !matches!(self, ReachError::Body(error) if !is_person(error))
+    }
+}
+
+fn is_person(error: &ReductionError) -> bool {
+    matches!(error, ReductionError::Person { .. })
 }
 
 /// Frames per second of the motion.
@@ -108,11 +137,11 @@ const MAX_SECS: f64 = 600.0;
 ///
 /// ```
 /// use glam::DVec3;
-/// use sinew::reach::{ReachJob, reach};
+/// use sinew::jobs::reach::{ReachJob, reach};
 /// let job = ReachJob { target: Some(DVec3::new(0.4, 1.4, 0.5)), ..ReachJob::default() };
 /// let reached = reach(&job, None)?;
 /// assert!(reached.report.reached && reached.report.hand_error_m < 1e-3);
-/// # Ok::<(), sinew::reach::ReachError>(())
+/// # Ok::<(), sinew::jobs::reach::ReachError>(())
 /// ```
 ///
 /// # Errors
@@ -236,23 +265,22 @@ const TARGET_M: f64 = 0.045;
 impl ReachJob {
     fn check(&self) -> Result<(), ReachError> {
         self.style.check()?;
-        let wrong = |text: String| Err(ReachError::Target(text));
         let places = [self.target, self.left, self.right].into_iter().flatten();
         for place in places.clone().chain(self.moving.iter().map(|point| point.at)) {
             if !place.is_finite() || place.abs().max_element() > MAX_M {
-                return wrong(format!("a target of {place} is out of range; give metres, at most {MAX_M:.0}"));
+                return Err(ReachError::TargetOutOfRange(place));
             }
         }
         if places.count() == 0 {
-            return wrong("nothing to reach; give --target X:Y:Z in metres: x to the left, y up, z forward".to_owned());
+            return Err(ReachError::NoTarget);
         }
         for point in &self.moving {
             if !(0.0..=MAX_SECS).contains(&point.secs) {
-                return wrong(format!("a time of {} s is out of range; it is 0 to {MAX_SECS:.0}", point.secs));
+                return Err(ReachError::TimeOutOfRange(point.secs));
             }
         }
         if self.moving.windows(2).any(|pair| pair[1].secs <= pair[0].secs) {
-            return wrong("the times of --moving must grow from point to point".to_owned());
+            return Err(ReachError::TimesNotGrowing);
         }
         let Person { mass_kg, height_m } = self.person;
         let height_m = height_m.unwrap_or(1.7);
@@ -293,8 +321,7 @@ fn from_clip(job: &ReachJob, file: &MotionFile) -> Result<(Body, MotionSource), 
     let parts = file.body_parts()?;
     let ends_secs = file.clip.duration_secs();
     if job.from_secs > ends_secs + 0.5 / HZ {
-        let text = format!("--from: the clip ends at {ends_secs:.2} s; leave it before, not at {} s", job.from_secs);
-        return Err(ReachError::Target(text));
+        return Err(ReachError::ClipEnds { ends_secs, from_secs: job.from_secs });
     }
     let reduction = Reduction::new(&file.clip, parts, file.stature_m, job.person)?;
     let clip = resample(&file.clip, HZ);

@@ -1,7 +1,7 @@
 //! A reach as a picture.
 
 use super::job::Reached;
-use crate::run::{custom, figure};
+use crate::jobs::run::{custom, figure};
 use glam::DVec3;
 use sinew_picture::{Camera, Capsule, Figure, Filmstrip, Panel, Plot, Series, Shade, Sheet, Style};
 use sinew_world::Form;

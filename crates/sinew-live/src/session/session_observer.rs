@@ -1,4 +1,4 @@
-//! A stage and its queue: what happens around each step of a session.
+//! What a session does around each step of its stage.
 
 use super::limits::MAX_SCENE;
 use super::server::SceneManifest;
@@ -6,10 +6,9 @@ use super::stage_queue::{Order, Placed, StageQueue};
 use super::{SessionError, note_hash};
 use sinew_control::{Action, Command};
 use sinew_stage::take::{Take, TakeFile};
-use sinew_stage::{Scene, Stage};
+use sinew_stage::{Observer, Scene, Stage};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 impl SceneManifest {
     /// What has to be told of a scene.
@@ -43,25 +42,21 @@ impl SceneManifest {
     }
 }
 
-/// Runs the steps of a stage that has a queue.
+/// Ties a session's queue to a stage: an [`Observer`] that hands the stage what clients sent, and the clients what came of it.
 ///
 /// ```
-/// use sinew_live::session::{SceneManifest, Server, ServerSettings, SessionRunner};
-/// use sinew_stage::{Scene, Stage};
+/// use sinew_live::session::{SceneManifest, Server, ServerSettings, SessionObserver};
+/// use sinew_stage::{Runner, Scene, Stage};
 /// let scene = Scene::from_text("format = 1\n[characters.red]\n")?;
 /// let settings = ServerSettings { bind: "127.0.0.1:0".parse()?, ..ServerSettings::default() };
 /// let (_server, queue) = Server::open(&settings, SceneManifest::of(&scene)?)?;
-/// let mut stage = Stage::new(scene, None)?;
-/// let mut session_runner = SessionRunner::new(queue, &stage);
-/// for _ in 0..8 {
-///     session_runner.before_step(&mut stage);
-///     stage.step();
-///     session_runner.after_step(&stage);
-/// }
-/// assert_eq!(stage.frame().step, 8);
+/// let mut runner = Runner::new(Stage::new(scene, None)?).paced();
+/// let mut session_observer = SessionObserver::new(queue, runner.stage());
+/// runner.run(8, &mut [&mut session_observer]);
+/// assert_eq!(runner.stage().frame().step, 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct SessionRunner {
+pub struct SessionObserver {
     queue: StageQueue,
     steps_per_frame: u64,
     has_obeyed: bool,
@@ -85,18 +80,30 @@ pub struct AppliedCommand {
 /// AppliedCommand commands that are kept; of more the last.
 const MAX_OBEYED: usize = 1_000;
 
-impl SessionRunner {
+impl SessionObserver {
     /// A queue for a stage.
-    pub fn new(queue: StageQueue, stage: &Stage) -> SessionRunner {
+    pub fn new(queue: StageQueue, stage: &Stage) -> SessionObserver {
         let steps_per_frame = u64::from(stage.scene().stage.steps_per_frame()).max(1);
-        let mut session_runner =
-            SessionRunner { queue, steps_per_frame, has_obeyed: false, hashes: BTreeMap::new(), applied: Vec::new() };
-        session_runner.after_step(stage);
-        session_runner
+        let mut session_observer =
+            SessionObserver { queue, steps_per_frame, has_obeyed: false, hashes: BTreeMap::new(), applied: Vec::new() };
+        session_observer.after_step(stage);
+        session_observer
     }
 
+    /// [`Frame::hash`](sinew_world::Frame::hash) by step, as [`ClientStats::hashes`](super::ClientStats::hashes) of a client has them.
+    pub fn hashes(&self) -> &BTreeMap<u64, String> {
+        &self.hashes
+    }
+
+    /// Commands and keys of clients that were applied, performance left out: the last thousand.
+    pub fn applied(&self) -> &[AppliedCommand] {
+        &self.applied
+    }
+}
+
+impl Observer for SessionObserver {
     /// Hands the stage what has arrived.
-    pub fn before_step(&mut self, stage: &mut Stage) {
+    fn before_step(&mut self, stage: &mut Stage) {
         self.has_obeyed = false;
         let step = stage.frame().step;
         for Placed { order, by, arrived_step } in self.queue.orders_of_step() {
@@ -123,7 +130,7 @@ impl SessionRunner {
 
     /// Shows what has come of it: at the motion rate, and at once when somebody was applied, so that a pull is seen without
     /// waiting for the next frame.
-    pub fn after_step(&mut self, stage: &Stage) {
+    fn after_step(&mut self, stage: &Stage) {
         let frame = stage.frame();
         self.queue.done(frame.step);
         note_hash(&mut self.hashes, frame.step, frame.hash());
@@ -133,18 +140,8 @@ impl SessionRunner {
     }
 
     /// Whether somebody asked for the end.
-    pub fn should_stop(&self) -> bool {
+    fn should_stop(&self) -> bool {
         self.queue.should_stop()
-    }
-
-    /// [`Frame::hash`](sinew_world::Frame::hash) by step, as [`ClientStats::hashes`](super::ClientStats::hashes) of a client has them.
-    pub fn hashes(&self) -> &BTreeMap<u64, String> {
-        &self.hashes
-    }
-
-    /// Commands and keys of clients that were applied, performance left out: the last thousand.
-    pub fn applied(&self) -> &[AppliedCommand] {
-        &self.applied
     }
 }
 
@@ -152,38 +149,4 @@ impl SessionRunner {
 fn word(command: &Command) -> String {
     let action = serde_json::to_value(&command.action).unwrap_or_default();
     action.get("do").and_then(|word| word.as_str()).unwrap_or_default().to_owned()
-}
-
-/// Keeps a stage at the pace of the clock. Steps are due at fixed times from the beginning, so that waiting a little too long
-/// once delays nothing after it; when the machine falls far behind, the time lost is given up.
-#[derive(Clone, Debug)]
-pub struct Pacer {
-    began: Instant,
-    step: Duration,
-    /// Steps before `began`.
-    from_step: u64,
-    /// Times that time was given up.
-    pub lapses: u64,
-}
-
-/// How far behind the clock a stage tries to catch up.
-const MAX_BEHIND: Duration = Duration::from_millis(250);
-
-impl Pacer {
-    /// The step after `step` begins now.
-    pub fn new(step: u64, step_secs: f64) -> Pacer {
-        Pacer { began: Instant::now(), step: Duration::from_secs_f64(step_secs), from_step: step, lapses: 0 }
-    }
-
-    /// Waits until the step after `step` is due.
-    pub fn wait(&mut self, step: u64) {
-        let due = self.began + self.step.mul_f64(step.saturating_sub(self.from_step) as f64);
-        let now = Instant::now();
-        if let Some(wait) = due.checked_duration_since(now) {
-            std::thread::sleep(wait);
-        } else if now - due > MAX_BEHIND {
-            self.lapses += 1;
-            (self.began, self.from_step) = (now, step);
-        }
-    }
 }

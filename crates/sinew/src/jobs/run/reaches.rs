@@ -1,6 +1,6 @@
 //! The reaches of a character in a run.
 
-use crate::reach::{Instant, ReachMeter, ReachReport};
+use crate::jobs::reach::{Instant, ReachMeter, ReachReport};
 use sinew_stage::Stage;
 
 /// Looks at the reach that a character is about.

@@ -3,10 +3,10 @@
 use super::actors::{self, ActorReport};
 use super::external_force::{ExternalForceReport, Meter};
 use super::reaches::ReachWatch;
-use crate::reach::ReachReport;
+use crate::jobs::reach::ReachReport;
 use serde::Serialize;
 use sinew_live::Performers;
-use sinew_stage::{Event, Stage};
+use sinew_stage::{Event, Observer, Stage};
 use sinew_world::Entity;
 use std::collections::BTreeMap;
 
@@ -89,8 +89,34 @@ impl RunReport {
         }
     }
 
+    /// Adds what only the ports of live performers know.
+    pub fn add_ports(&mut self, performers: &Performers) {
+        actors::add_ports(&mut self.actors, performers);
+    }
+
+    /// Fills in what is known at the end.
+    pub fn finish(&mut self, stage: &Stage) {
+        let frame = stage.frame();
+        self.steps = frame.step;
+        self.duration_s = frame.time_secs;
+        self.hash = format!("{:016x}", stage.hash());
+        self.events = stage.events().list().to_vec();
+        self.events_dropped = stage.events().dropped();
+        self.actors = actors::of(stage);
+        for (index, character) in self.characters.values_mut().enumerate() {
+            let seen = &frame.characters[index];
+            character.hips_height_end_m = seen.parts[0].position.y;
+            character.centre_end_m = seen.centre_of_mass.into();
+            character.com_margin_end_m = seen.support_margin_m();
+            character.pins = character.meters[0].report();
+            character.held = character.meters[1].report();
+        }
+    }
+}
+
+impl Observer for RunReport {
     /// Looks at the stage after a step.
-    pub fn watch(&mut self, stage: &Stage) {
+    fn after_step(&mut self, stage: &Stage) {
         use sinew_body::humanoid::Node;
         let frame = stage.frame();
         self.joint_gap_max_m = self.joint_gap_max_m.max(stage.world().largest_joint_gap_m());
@@ -116,30 +142,6 @@ impl RunReport {
                     character.in_the_air[side] += 1;
                 }
             }
-        }
-    }
-
-    /// Adds what only the ports of live performers know.
-    pub fn add_ports(&mut self, performers: &Performers) {
-        actors::add_ports(&mut self.actors, performers);
-    }
-
-    /// Fills in what is known at the end.
-    pub fn finish(&mut self, stage: &Stage) {
-        let frame = stage.frame();
-        self.steps = frame.step;
-        self.duration_s = frame.time_secs;
-        self.hash = format!("{:016x}", stage.hash());
-        self.events = stage.events().list().to_vec();
-        self.events_dropped = stage.events().dropped();
-        self.actors = actors::of(stage);
-        for (index, character) in self.characters.values_mut().enumerate() {
-            let seen = &frame.characters[index];
-            character.hips_height_end_m = seen.parts[0].position.y;
-            character.centre_end_m = seen.centre_of_mass.into();
-            character.com_margin_end_m = seen.support_margin_m();
-            character.pins = character.meters[0].report();
-            character.held = character.meters[1].report();
         }
     }
 }

@@ -1,0 +1,10 @@
+//! What the program `sinew` does, as library calls: files and scenes in; motion, pictures and reports out.
+//!
+//! A job is a plain struct with a [`Default`]; the function of the same name runs it.
+
+pub mod inspect;
+pub mod reach;
+pub mod respond;
+pub mod run;
+#[cfg(feature = "session")]
+pub mod session;
