@@ -6,7 +6,7 @@ use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::jobs::run::{RunJob, run};
 use sinew::script::{Limits, ScriptHost};
-use sinew::stage::Scene;
+use sinew::stage::{CharacterEffect, Scene};
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
@@ -49,14 +49,16 @@ fn the_ball_is_let_go_at_the_rim_and_drops_through_it_and_the_character_lands_on
     let job = RunJob { host: Some(host()), ..RunJob::default() };
     let ran = run(scene, &job, &mut []).unwrap_or_else(|error| panic!("{error}"));
 
-    let when = |effect: &str| {
-        let found = ran.report.events.iter().find(|event| event.effect.contains(effect));
-        found.unwrap_or_else(|| panic!("no `{effect}` in {:#?}", ran.report.events)).time_secs
+    let when = |effect: CharacterEffect| {
+        let player = &ran.recording.characters[0].name;
+        let found = ran.report.events.iter().find(|event| event.effect.on(player) == Some(&effect));
+        found.unwrap_or_else(|| panic!("no {effect:?} in {:#?}", ran.report.events)).time_secs
     };
-    assert_eq!(when("rightHand holds Ball"), 0.0);
-    let let_go = when("rightHand lets go of Ball");
-    assert!(when("takes the pose Landing") >= let_go);
-    assert!(ran.report.events.iter().all(|event| !event.effect.contains("refused")), "{:#?}", ran.report.events);
+    let node = Node::RightHand;
+    assert_eq!(when(CharacterEffect::Holds { node, object: "Ball".to_owned() }), 0.0);
+    let let_go = when(CharacterEffect::LetsGo { node, objects: vec!["Ball".to_owned()] });
+    assert!(when(CharacterEffect::Pose { pose: "Landing".to_owned() }) >= let_go);
+    assert!(!ran.report.events.iter().any(|event| event.effect.is_refused()), "{:#?}", ran.report.events);
 
     let ball = ran.recording.props.iter().find(|prop| prop.name == "Ball").unwrap();
     let places: Vec<DVec3> = ball.places.iter().map(|(place, _)| *place).collect();

@@ -5,7 +5,7 @@
 use glam::DVec3;
 use sinew::body::humanoid::{Node, Pose};
 use sinew::jobs::run::{Ran, RunJob, run};
-use sinew::stage::{RecordedCharacter, Scene};
+use sinew::stage::{Cause, CharacterEffect, Effect, RecordedCharacter, Scene};
 use std::path::Path;
 
 #[path = "skills/reach.rs"]
@@ -55,10 +55,39 @@ fn lies(ran: &Ran, name: &str, secs: f64) -> bool {
     path(ran, name, Node::Hips)[frame(ran, secs)].y < 0.4
 }
 
-/// When the first event came whose effect and cause have these words \[s\].
-fn event(ran: &Ran, effect: &str, cause: &str) -> f64 {
-    let found = ran.report.events.iter().find(|event| event.effect.contains(effect) && event.cause.contains(cause));
-    found.unwrap_or_else(|| panic!("no `{effect}` because of `{cause}` in {:#?}", ran.report.events)).time_secs
+/// When this first happened because of this \[s\].
+fn event(ran: &Ran, is: impl Fn(&CharacterEffect) -> bool, because: impl Fn(&Cause) -> bool) -> f64 {
+    let is_it = |effect: &Effect| matches!(effect, Effect::Character { effect, .. } if is(effect));
+    let found = ran.report.events.iter().find(|event| is_it(&event.effect) && because(&event.cause));
+    found.unwrap_or_else(|| panic!("no such event in {:#?}", ran.report.events)).time_secs
+}
+
+/// When a graph first went so because of this \[s\].
+fn transition(ran: &Ran, graph: &str, from: &str, to: &str, because: impl Fn(&Cause) -> bool) -> f64 {
+    let wanted = CharacterEffect::Transition { graph: graph.into(), from: from.into(), to: to.into() };
+    event(ran, |effect| *effect == wanted, because)
+}
+
+/// When a hand first took hold of the ball because it touched it \[s\].
+fn holds(ran: &Ran, node: Node, object: &str, because: impl Fn(&Cause) -> bool) -> f64 {
+    event(ran, |effect| *effect == CharacterEffect::Holds { node, object: object.into() }, because)
+}
+
+/// Whether one touches the other, or any part of it.
+fn touch<'a>(one: &'a str, other: &'a str) -> impl Fn(&Cause) -> bool + 'a {
+    move |cause| match cause {
+        Cause::GraphTouch { touched: [a, b], .. } => a == one && b.starts_with(other),
+        Cause::Reaction { touching: [a, b], .. } => a == one && b == other,
+        _ => false,
+    }
+}
+
+fn timer(cause: &Cause) -> bool {
+    *cause == Cause::GraphTimer
+}
+
+fn sensor(cause: &Cause) -> bool {
+    matches!(cause, Cause::GraphSensor { .. })
 }
 
 #[test]
@@ -69,7 +98,11 @@ fn skis_hold_up_who_leans_too_far_for_its_feet_until_they_are_lost() {
     assert!(lies(&ran, "on_feet", 2.0));
     assert!(stands(&ran, "loses_skis", 2.0));
     assert!(lies(&ran, "loses_skis", end));
-    let lost = event(&ran, "loses_skis's leftFoot has its own shape", "its time is over");
+    let lost = event(
+        &ran,
+        |effect| *effect == CharacterEffect::OwnShape { node: Node::LeftFoot },
+        |cause| *cause == Cause::TimeOver,
+    );
     assert!((lost - 2.0).abs() < 1e-9);
     // Own feet could not carry this: the centre of mass lies before the toes, which end 0.18 m before the ankle.
     let one = character(&ran, "on_skis");
@@ -93,11 +126,13 @@ fn who_blocks_without_forces_on_its_hips_stays_up_and_still_shows_the_hit() {
     let end = ran.report.duration_s;
     assert!(lies(&ran, "left", end));
     assert!(stands(&ran, "right", end));
-    let off = event(&ran, "right: forces on hips are off", "ball_right touches right");
-    let on = event(&ran, "right: forces on hips are on", "its time is over");
+    let forces =
+        |on| move |effect: &CharacterEffect| *effect == CharacterEffect::Forces { nodes: vec![Node::Hips], on };
+    let off = event(&ran, forces(false), touch("ball_right", "right"));
+    let on = event(&ran, forces(true), |cause| *cause == Cause::TimeOver);
     assert!((on - off - 1.0).abs() < 1e-9);
-    event(&ran, "block_right: from wait to hit", "ball_right touches right");
-    event(&ran, "block_right: from hit to again", "time was up");
+    transition(&ran, "block_right", "wait", "hit", touch("ball_right", "right"));
+    transition(&ran, "block_right", "hit", "again", timer);
     let right = character(&ran, "right");
     let leans = |secs: f64| leans_back_deg(&right.poses[frame(&ran, secs)], Node::Chest);
     // The chest goes with the hit; the hips hardly do.
@@ -113,8 +148,8 @@ fn who_blocks_without_forces_on_its_hips_stays_up_and_still_shows_the_hit() {
 fn the_punched_one_feels_it_and_the_attacker_stays_up() {
     let ran = play("duel");
     let end = ran.report.duration_s;
-    event(&ran, "punch: from wait to draw", "the signal came");
-    let hit = event(&ran, "punch: from strike to follow_through", "rightHand touches victim");
+    transition(&ran, "punch", "wait", "draw", |cause| *cause == Cause::GraphSignal);
+    let hit = transition(&ran, "punch", "strike", "follow_through", touch("attacker.rightHand", "victim"));
     assert!(stands(&ran, "attacker", end));
     // A fist and forearm of 1.8 kg at some 6 m/s have 11 N s; a part of it comes in one step.
     let felt = ran.report.characters["victim"].hit_impulse_max_n_s;
@@ -128,9 +163,9 @@ fn the_punched_one_feels_it_and_the_attacker_stays_up() {
 #[test]
 fn a_hop_leaves_the_ground_with_both_feet_and_ends_standing() {
     let ran = play("hop");
-    event(&ran, "hop: from crouch to push", "time was up");
-    let rises = event(&ran, "hop: from push to rise", "the sensor read");
-    let lands = event(&ran, "hop: from fall to land", "ground touches");
+    transition(&ran, "hop", "crouch", "push", timer);
+    let rises = transition(&ran, "hop", "push", "rise", sensor);
+    let lands = transition(&ran, "hop", "fall", "land", touch("ground", "hopper"));
     // A second in the air would be a jump of 1.2 m.
     assert!((0.3..0.7).contains(&(lands - rises)), "{rises} to {lands}");
     let (left, right) = (path(&ran, "hopper", Node::LeftFoot), path(&ran, "hopper", Node::RightFoot));
@@ -147,7 +182,7 @@ fn left_standing_m(ran: &Ran) -> f64 {
 #[test]
 fn a_punch_is_fast_and_knocks_the_highest_box_off_the_others() {
     let ran = play("punch");
-    let hit = event(&ran, "punch: from strike to follow_through", "box_high touches boxer.rightHand");
+    let hit = transition(&ran, "punch", "strike", "follow_through", touch("box_high", "boxer.rightHand"));
     let fist = path(&ran, "boxer", Node::RightHand);
     let speed = |at: usize| (fist[at] - fist[at - 1]).length() * ran.recording.motion_hz;
     let fastest = (1..=frame(&ran, hit)).map(speed).fold(0.0, f64::max);
@@ -163,7 +198,7 @@ fn a_punch_is_fast_and_knocks_the_highest_box_off_the_others() {
 #[test]
 fn a_kick_goes_higher_than_the_hips_sends_the_ball_off_and_comes_back_to_stand() {
     let ran = play("kick");
-    event(&ran, "kick: from kick to back", "the sensor read");
+    transition(&ran, "kick", "kick", "back", sensor);
     let (foot, hips) = (path(&ran, "kicker", Node::RightFoot), path(&ran, "kicker", Node::Hips));
     let over = foot.iter().zip(&hips).map(|(foot, hips)| foot.y - hips.y).fold(f64::NEG_INFINITY, f64::max);
     assert!(over > 0.1, "{over}");
@@ -179,7 +214,7 @@ fn a_kick_goes_higher_than_the_hips_sends_the_ball_off_and_comes_back_to_stand()
 #[test]
 fn who_leans_back_is_missed_and_who_does_not_is_hit() {
     let ran = play("lean_back");
-    event(&ran, "dodge: from wait to lean", "the sensor read");
+    transition(&ran, "dodge", "wait", "lean", sensor);
     assert_eq!(ran.report.characters["leaning"].hit_impulse_max_n_s, 0.0);
     assert!(ran.report.characters["upright"].hit_impulse_max_n_s > 0.5);
     let leaning = character(&ran, "leaning");
@@ -194,9 +229,9 @@ fn who_leans_back_is_missed_and_who_does_not_is_hit() {
 #[test]
 fn a_ball_is_picked_up_with_both_hands_and_carried_up() {
     let ran = play("pick_up");
-    let left = event(&ran, "leftHand holds ball", "carrier.leftHand touches ball");
-    let right = event(&ran, "rightHand holds ball", "carrier.rightHand touches ball");
-    let lift = event(&ran, "pick_up: from down to lift", "ball touches carrier.leftHand");
+    let left = holds(&ran, Node::LeftHand, "ball", touch("carrier.leftHand", "ball"));
+    let right = holds(&ran, Node::RightHand, "ball", touch("carrier.rightHand", "ball"));
+    let lift = transition(&ran, "pick_up", "down", "lift", touch("ball", "carrier.leftHand"));
     assert!((right - left).abs() < 0.2 && (lift - left).abs() < 0.2);
     let hips = path(&ran, "carrier", Node::Hips);
     let lowest = hips.iter().map(|place| place.y).fold(f64::INFINITY, f64::min);

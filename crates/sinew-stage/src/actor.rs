@@ -1,5 +1,6 @@
 //! One character on the stage: its layers, and how its body follows them.
 
+use crate::event::CharacterEffect;
 use crate::foot_lock::FootLock;
 use crate::motion_source::MotionSource;
 use crate::performance::Performance;
@@ -203,18 +204,18 @@ impl Actor {
     }
 
     /// The performer's stream goes on by a step. Returns what there is to tell.
-    pub(crate) fn step_performance(&mut self, now_secs: f64) -> Option<&'static str> {
+    pub(crate) fn step_performance(&mut self, now_secs: f64) -> Option<CharacterEffect> {
         let is_understudied = self.performance.as_ref()?.has_understudy_on();
         if is_understudied {
             let acted = self.wanted_pose(now_secs);
             self.performance.as_mut()?.stand_by(&acted);
         }
         let performance = self.performance.as_mut()?;
-        let word = performance.advance(now_secs, self.step_secs);
+        let change = performance.advance(now_secs, self.step_secs);
         if is_understudied && performance.source().presence() == Presence::Performing {
             self.follow_performer(true).ok()?;
         }
-        word
+        change
     }
 
     /// Whether its controller is called: one that belongs to an understudy is silent while the performer acts.
@@ -341,7 +342,7 @@ impl Actor {
     }
 
     /// Decides what is wanted at the end of the next step. Returns what the graph did, if it did something: cause and effect.
-    pub(crate) fn decide(&mut self, world: &World, gravity_m_s2: f64) -> Option<(Cause, String)> {
+    pub(crate) fn decide(&mut self, world: &World, gravity_m_s2: f64) -> Option<(Cause, CharacterEffect)> {
         let frame = world.frame();
         let step_secs = self.step_secs;
         let mut happened = None;
@@ -353,7 +354,8 @@ impl Actor {
             self.player.aim(player.pose(graph));
             player.pose_name(graph).clone_into(&mut self.pose);
             let (from, to) = transition.names(graph);
-            happened = Some((transition.cause, format!("{name}: from {from} to {to}")));
+            let (graph, from, to) = (name.clone(), from.to_owned(), to.to_owned());
+            happened = Some((transition.cause, CharacterEffect::Transition { graph, from, to }));
         }
         self.signals.clear();
         for joint in &mut self.target.joints {

@@ -1,27 +1,30 @@
 //! What each command does.
 
 use crate::Stage;
+use crate::event::{Cause, CharacterEffect, Effect, ShapeChoice};
 use crate::fade::Weighs;
 use crate::scene::TrackerKind;
 use crate::stage::step_of;
 use crate::timed_effect::{Expiry, LastingPush, MAX_PUSHES};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
-use sinew_control::{Action, Command};
+use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 use sinew_world::{Entity, PartShape};
 
 impl Stage {
     /// Does what a command says and notes it. A command that makes no sense here (an unknown name, a number that is not
     /// finite) is noted as refused, with the reason.
-    pub(crate) fn apply(&mut self, command: &Command, cause: &str) {
+    pub(crate) fn apply(&mut self, command: &Command, cause: Cause) {
         match self.try_apply(command) {
             Ok(Some(effect)) => self.note(cause, effect),
             Ok(None) => {}
-            Err(problem) => self.note(cause, format!("refused: {problem}")),
+            Err(problem) => {
+                self.note(cause, Effect::Refused(OrderError::new(OrderErrorKind::WrongState, problem)));
+            }
         }
     }
 
-    fn try_apply(&mut self, command: &Command) -> Result<Option<String>, String> {
+    fn try_apply(&mut self, command: &Command) -> Result<Option<Effect>, String> {
         match &command.character {
             Some(name) => {
                 let character = self
@@ -34,7 +37,7 @@ impl Stage {
         }
     }
 
-    fn apply_to_character(&mut self, character: usize, action: &Action) -> Result<Option<String>, String> {
+    fn apply_to_character(&mut self, character: usize, action: &Action) -> Result<Option<Effect>, String> {
         let who = self.cast.characters()[character].clone();
         let effect = match action {
             Action::Pose { name } => {
@@ -42,15 +45,15 @@ impl Stage {
                     // It aims there already: a script says so at every step.
                     return Ok(None);
                 }
-                format!("{who} takes the pose {name}")
+                CharacterEffect::Pose { pose: name.clone() }
             }
             Action::Graph { name, state } => {
                 self.actors[character].start_graph(name, state.as_deref())?;
-                format!("{who} starts the graph {name}")
+                CharacterEffect::Graph { graph: name.clone() }
             }
             Action::Signal { name } => {
                 self.actors[character].signal(name);
-                format!("{who} gets the signal {name}")
+                CharacterEffect::Signal { signal: name.clone() }
             }
             Action::Ik { link, target_m } => {
                 let target = vector(*target_m, "target_m")?;
@@ -62,22 +65,22 @@ impl Stage {
                 if !self.actors[character].reach(limb, target, effector)? {
                     return Ok(None);
                 }
-                format!("{who}'s {} reaches for {target:.2}", limb.part())
+                CharacterEffect::LimbReaches { node: limb, target }
             }
             Action::Reach(order) => match self.begin_reach(character, order)? {
-                Some(effect) => format!("{who} {effect}"),
+                Some(effect) => effect,
                 None => return Ok(None),
             },
             Action::ReachEnd {} => {
                 if !self.actors[character].end_reach(self.world.frame().time_secs) {
                     return Ok(None);
                 }
-                format!("{who} reaches no longer")
+                CharacterEffect::ReachEnds
             }
             Action::IkRelease { link } => {
                 let limb = link.as_deref().map(|link| self.part(character, link)).transpose()?;
                 self.actors[character].stop_reaching(limb);
-                format!("{who} reaches no longer")
+                CharacterEffect::ReachEnds
             }
             Action::Attach { .. } | Action::Detach { .. } => return self.apply_grasp(character, action),
             Action::Push { on, force_n, for_secs, facing, at_m } => {
@@ -90,14 +93,13 @@ impl Stage {
                 if !self.start_push(Entity::Part(character, node), force, *at_m, *for_secs)? {
                     return Ok(None);
                 }
-                format!("{who}'s {} is pushed with {:.0} N for {for_secs:.2} s", node.part(), force.length())
+                CharacterEffect::Pushed { node, force_n: force.length(), for_secs: *for_secs }
             }
             Action::Gain { factor, part } => {
                 let factor = number(*factor, "factor")?.max(0.0);
                 let part = part.as_deref().map(|part| self.part(character, part)).transpose()?;
                 self.actors[character].set_gain(part, factor);
-                let what = part.map_or("all joints".to_owned(), |node| node.part().name().to_owned());
-                format!("{who}: gain of {what} is {factor}")
+                CharacterEffect::Gain { node: part, factor }
             }
             Action::ForcesOff { parts, for_secs } => {
                 let nodes = if parts.is_empty() { vec![Node::Hips] } else { self.parts(character, parts)? };
@@ -106,7 +108,7 @@ impl Stage {
                     self.world.set_forces(character, node, false);
                     self.timed_effects.end_at(until, Expiry::ForcesOff(character, node));
                 }
-                format!("{who}: forces on {} are off", listed(&nodes))
+                CharacterEffect::Forces { nodes, on: false }
             }
             Action::ForcesOn { parts } => {
                 let nodes = if parts.is_empty() { Node::ALL.to_vec() } else { self.parts(character, parts)? };
@@ -114,7 +116,7 @@ impl Stage {
                     self.world.set_forces(character, node, true);
                     self.timed_effects.end_at(None, Expiry::ForcesOff(character, node));
                 }
-                format!("{who}: forces on {} are on", listed(&nodes))
+                CharacterEffect::Forces { nodes, on: true }
             }
             Action::Plane { facing_deg, for_secs } => {
                 let facing = match facing_deg {
@@ -124,7 +126,7 @@ impl Stage {
                 let until = self.until(*for_secs)?;
                 self.world.hold_to_plane(character, facing);
                 self.timed_effects.end_at(until, Expiry::Plane(character));
-                format!("{who} is held to a plane")
+                CharacterEffect::HeldToPlane
             }
             Action::PlaneOff {} => {
                 self.end(&Expiry::Plane(character));
@@ -145,21 +147,20 @@ impl Stage {
                 if only.is_none() {
                     self.timed_effects.end_at(until, Expiry::Gravity(character));
                 }
-                let of = if only.is_some() { format!(" on {}", listed(&nodes)) } else { String::new() };
-                format!("{who}: gravity{of} times {scale}{}", over(over_secs))
+                CharacterEffect::Gravity { node: only, scale, over_secs }
             }
             Action::Shape { part, shape, for_secs } => {
                 let node = self.part(character, part)?;
                 let until = self.until(*for_secs)?;
-                let solid = match shape.as_str() {
-                    "own" => PartShape::Own,
-                    "none" => PartShape::None,
-                    name => PartShape::Other(self.shape(name)?),
+                let (solid, shape) = match shape.as_str() {
+                    "own" => (PartShape::Own, ShapeChoice::Own),
+                    "none" => (PartShape::None, ShapeChoice::None),
+                    name => (PartShape::Other(self.shape(name)?), ShapeChoice::Named(name.to_owned())),
                 };
                 self.world.set_shape(character, node, solid.clone()).map_err(|error| error.to_string())?;
                 self.note_shape(character, node, solid);
                 self.timed_effects.end_at(until, Expiry::Shape(character, node));
-                format!("{who}'s {} has the shape {shape}", node.part())
+                CharacterEffect::Shape { node, shape }
             }
             Action::AddShape { part, shape, for_secs } => {
                 let node = self.part(character, part)?;
@@ -167,7 +168,7 @@ impl Stage {
                 let solid = self.shape(shape)?;
                 self.world.add_shape(character, node, shape, &solid).map_err(|error| error.to_string())?;
                 self.timed_effects.end_at(until, Expiry::ExtraShape(character, node, shape.clone()));
-                format!("{who}'s {} has the shape {shape} as well", node.part())
+                CharacterEffect::ShapeAdded { node, shape: shape.clone() }
             }
             Action::RemoveShape { part, shape } => {
                 let node = self.part(character, part)?;
@@ -175,20 +176,19 @@ impl Stage {
                     return Err(format!("no shape `{shape}` was added to the {}", node.part()));
                 }
                 self.timed_effects.end_at(None, Expiry::ExtraShape(character, node, shape.clone()));
-                format!("{who}'s {} has the shape {shape} no longer", node.part())
+                CharacterEffect::ShapeRemoved { node, shape: shape.clone() }
             }
             Action::Layer { layer, on } => {
                 self.actors[character].set_layer(*layer, *on);
-                let state = if *on { "on" } else { "off" };
-                format!("{who}: layer {} {state}", format!("{layer:?}").to_lowercase())
+                CharacterEffect::Layer { layer: *layer, on: *on }
             }
             Action::Reflex { name, on } => {
                 self.actors[character].set_reflex(name, *on)?;
-                format!("{who}: reflex {name} {}", if *on { "on" } else { "off" })
+                CharacterEffect::Reflex { reflex: name.clone(), on: *on }
             }
             Action::Controller { name } => {
                 self.start_controller(character, name)?;
-                format!("{who} is run by {}", if name.is_empty() { "no controller" } else { name })
+                CharacterEffect::Controller { controller: (!name.is_empty()).then(|| name.clone()) }
             }
             Action::Weights { .. } | Action::Kd { .. } | Action::Pins { .. } => self.apply_kd(character, action)?,
             Action::Tracker { name } => {
@@ -196,7 +196,7 @@ impl Stage {
                     format!("no tracker `{name}`; there are {}", TrackerKind::ALL.map(TrackerKind::name).join(", "))
                 })?;
                 self.set_tracker(character, kind)?;
-                format!("{who} follows by {name}")
+                CharacterEffect::Tracker(kind)
             }
             Action::Perform { sample } => {
                 // Many a second: what came of them is counted, not told.
@@ -206,16 +206,16 @@ impl Stage {
             }
             Action::Live { on } => {
                 self.actors[character].follow_performer(*on)?;
-                format!("{who} follows {}", if *on { "its performer" } else { "its performer no longer" })
+                CharacterEffect::Live { on: *on }
             }
             Action::Reload { name, text } => return self.reload(name, text.as_deref()).map(Some),
-            Action::ScriptKilled { name, reason } => return self.kill_script(name, reason).map(Some),
-            Action::Say { text } => format!("{who}: {text}"),
+            Action::ScriptKilled { name, reason } => return Ok(Some(self.kill_script(name, reason))),
+            Action::Say { text } => CharacterEffect::Says { text: text.clone() },
             Action::Place { .. } | Action::Accelerate { .. } | Action::Motor { .. } | Action::Cut { .. } => {
                 return self.apply_to_stage(action);
             }
         };
-        Ok(Some(effect))
+        Ok(Some(Effect::of(who, effect)))
     }
 
     /// Undoes what has lasted for its time.
@@ -224,41 +224,43 @@ impl Stage {
         let effect = match ending {
             Expiry::ForcesOff(character, node) => {
                 self.world.set_forces(*character, *node, true);
-                format!("{}: forces on {} are on", who(*character), node.part())
+                Effect::of(who(*character), CharacterEffect::Forces { nodes: vec![*node], on: true })
             }
             Expiry::Plane(character) => {
                 if !self.world.is_held_to_plane(*character) {
                     return;
                 }
                 self.world.free_from_plane(*character);
-                format!("{} is free in three dimensions", who(*character))
+                Effect::of(who(*character), CharacterEffect::FreeFromPlane)
             }
             Expiry::Gravity(character) => {
                 let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
-                let effect = format!("{}: gravity times {scale}", who(*character));
+                let gravity = CharacterEffect::Gravity { node: None, scale, over_secs: None };
+                let effect = Effect::of(who(*character), gravity);
                 self.weigh(&Node::ALL.map(|node| Weighs::Part(*character, node)), scale, None);
                 effect
             }
             Expiry::PartGravity(character, node) => {
                 let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
-                let effect = format!("{}: gravity on {} times {scale}", who(*character), node.part());
+                let gravity = CharacterEffect::Gravity { node: Some(*node), scale, over_secs: None };
+                let effect = Effect::of(who(*character), gravity);
                 self.weigh(&[Weighs::Part(*character, *node)], scale, None);
                 effect
             }
             Expiry::PropGravity(prop) => {
                 let scale = self.scene.props.values().nth(*prop).and_then(|spec| spec.gravity_scale).unwrap_or(1.0);
                 self.weigh(&[Weighs::Prop(*prop)], scale, None);
-                format!("{}: gravity times {scale}", self.cast.props()[*prop])
+                Effect::PropGravity { prop: self.cast.props()[*prop].clone(), scale, over_secs: None }
             }
             Expiry::Shape(character, node) => {
                 // The body's own shape is one.
                 let _ = self.world.set_shape(*character, *node, PartShape::Own);
                 self.shapes.remove(&(*character, *node));
-                format!("{}'s {} has its own shape", who(*character), node.part())
+                Effect::of(who(*character), CharacterEffect::OwnShape { node: *node })
             }
             Expiry::ExtraShape(character, node, name) => {
                 self.world.remove_shape(*character, *node, name);
-                format!("{}'s {} has the shape {name} no longer", who(*character), node.part())
+                Effect::of(who(*character), CharacterEffect::ShapeRemoved { node: *node, shape: name.clone() })
             }
             Expiry::Weights(..) | Expiry::Kd(_) | Expiry::Pins(_) => {
                 let Some(effect) = self.end_kd(ending) else { return };
@@ -266,10 +268,10 @@ impl Stage {
             }
             Expiry::Acceleration(prop) => {
                 self.world.accelerate_prop(*prop, DVec3::ZERO);
-                format!("{} keeps its speed", self.cast.props()[*prop])
+                Effect::PropKeepsSpeed { prop: self.cast.props()[*prop].clone() }
             }
         };
-        self.note("its time is over", effect);
+        self.note(Cause::TimeOver, effect);
     }
 
     fn note_shape(&mut self, character: usize, node: Node, shape: PartShape) {
@@ -359,16 +361,4 @@ pub(crate) fn number(value: f64, what: &str) -> Result<f64, String> {
 pub(crate) fn vector(value: [f64; 3], what: &str) -> Result<DVec3, String> {
     let vector = DVec3::from(value);
     if vector.is_finite() { Ok(vector) } else { Err(format!("{what} is not made of finite numbers")) }
-}
-
-/// How long something takes, for an event.
-pub(crate) fn over(over_secs: Option<f64>) -> String {
-    over_secs.map_or(String::new(), |secs| format!(" within {secs:.2} s"))
-}
-
-pub(crate) fn listed(nodes: &[Node]) -> String {
-    if nodes.len() == Node::COUNT {
-        return "all parts".to_owned();
-    }
-    nodes.iter().map(|node| node.part().name()).collect::<Vec<_>>().join(", ")
 }

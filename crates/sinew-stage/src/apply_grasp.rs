@@ -2,6 +2,7 @@
 
 use crate::Stage;
 use crate::apply_command::number;
+use crate::event::{Cause, CharacterEffect, Effect};
 use sinew_body::humanoid::Node;
 use sinew_control::Action;
 use sinew_control::graph::Touchable;
@@ -11,8 +12,8 @@ use sinew_world::{Entity, Held};
 const REACH_M: f64 = 0.15;
 
 impl Stage {
-    /// What was done, in words; `None` when it was so already.
-    pub(crate) fn apply_grasp(&mut self, character: usize, action: &Action) -> Result<Option<String>, String> {
+    /// What was done; `None` when it was so already.
+    pub(crate) fn apply_grasp(&mut self, character: usize, action: &Action) -> Result<Option<Effect>, String> {
         let who = self.cast.characters()[character].clone();
         match action {
             Action::Attach { link, object, soft, break_n } => {
@@ -23,7 +24,7 @@ impl Stage {
                 }
                 let break_force_n = break_n.map(|force| number(force, "break_n")).transpose()?;
                 self.world.attach(Held { character, node, object: thing, soft: *soft, break_force_n });
-                Ok(Some(format!("{who}'s {} holds {}", node.part(), self.cast.name_of(thing))))
+                Ok(Some(Effect::of(who, CharacterEffect::Holds { node, object: self.cast.name_of(thing) })))
             }
             Action::Detach { link, object } => {
                 let node = self.part(character, link)?;
@@ -37,9 +38,11 @@ impl Stage {
                 for &thing in &things {
                     self.world.detach(character, node, thing);
                 }
-                let names: Vec<String> = things.iter().map(|&thing| self.cast.name_of(thing)).collect();
-                let effect = format!("{who}'s {} lets go of {}", node.part(), names.join(", "));
-                Ok((!things.is_empty()).then_some(effect))
+                if things.is_empty() {
+                    return Ok(None);
+                }
+                let objects = things.iter().map(|&thing| self.cast.name_of(thing)).collect();
+                Ok(Some(Effect::of(who, CharacterEffect::LetsGo { node, objects })))
             }
             _ => Err("this is no command to a hand".to_owned()),
         }
@@ -49,13 +52,10 @@ impl Stage {
     pub(crate) fn note_broken_holds(&mut self) {
         for at in 0..self.world.broken_holds().len() {
             let (held, force_n) = self.world.broken_holds()[at];
-            let part = self.cast.name_of(Entity::Part(held.character, held.node));
-            let thing = self.cast.name_of(held.object);
-            let most_n = held.break_force_n.unwrap_or(0.0);
-            self.note(
-                format!("{force_n:.0} N are more than {most_n:.0} N"),
-                format!("{part} loses its hold of {thing}"),
-            );
+            let who = self.cast.characters().get(held.character).cloned().unwrap_or_default();
+            let loses = CharacterEffect::LosesHold { node: held.node, object: self.cast.name_of(held.object) };
+            let max_n = held.break_force_n.unwrap_or(0.0);
+            self.note(Cause::HoldOverload { force_n, max_n }, Effect::of(who, loses));
         }
     }
 

@@ -1,7 +1,8 @@
 //! Commands to the tracker `kd`: how firmly a performer's motion holds a body.
 
 use crate::Stage;
-use crate::apply_command::{listed, number};
+use crate::apply_command::number;
+use crate::event::{CharacterEffect, Effect};
 use crate::timed_effect::Expiry;
 use sinew_body::humanoid::Node;
 use sinew_control::Action;
@@ -11,9 +12,7 @@ use sinew_control::tracker::{KdGains, KdTracker};
 const FADE_SECS: f64 = 0.5;
 
 impl Stage {
-    /// What was done, in words.
-    pub(crate) fn apply_kd(&mut self, character: usize, action: &Action) -> Result<String, String> {
-        let who = self.cast.characters()[character].clone();
+    pub(crate) fn apply_kd(&mut self, character: usize, action: &Action) -> Result<CharacterEffect, String> {
         let fade = |secs: &Option<f64>| number(secs.unwrap_or(FADE_SECS), "fade_secs").map(|secs| secs.max(0.0));
         match action {
             Action::Weights { parts, pin, joint, fade_secs, for_secs } => {
@@ -29,8 +28,7 @@ impl Stage {
                 for &node in &nodes {
                     self.timed_effects.end_at(until, Expiry::Weights(character, node));
                 }
-                let word = |weight: Option<f64>| weight.map_or("as it was".to_owned(), |weight| weight.to_string());
-                Ok(format!("{who}: pin {} and joint {} on {}", word(pin), word(joint), listed(&nodes)))
+                Ok(CharacterEffect::Weights { nodes, pin, joint })
             }
             Action::Kd { preset, k_p, d_p, k_q, d_q, damping, feed_forward, fade_secs, for_secs } => {
                 let fade_secs = fade(fade_secs)?;
@@ -52,22 +50,21 @@ impl Stage {
                     kd.set_feed_forward(*on);
                 }
                 self.timed_effects.end_at(until, Expiry::Kd(character));
-                let KdGains { k_p, d_p, k_q, d_q } = gains;
-                Ok(format!("{who}: k_p {k_p}, d_p {d_p}, k_q {k_q}, d_q {d_q}"))
+                Ok(CharacterEffect::KdGains(gains))
             }
             Action::Pins { on, fade_secs, for_secs } => {
                 let fade_secs = fade(fade_secs)?;
                 let until = self.until(*for_secs)?;
                 self.switch_pins(character, *on, fade_secs)?;
                 self.timed_effects.end_at(until, Expiry::Pins(character));
-                Ok(format!("{who}: kinematic forces are {}", if *on { "on" } else { "off" }))
+                Ok(CharacterEffect::Pins { on: *on })
             }
             _ => Err("this is no command to the tracker kd".to_owned()),
         }
     }
 
-    /// Undoes what has lasted for its time; what was done, in words, unless the character follows in another way by now.
-    pub(crate) fn end_kd(&mut self, ending: &Expiry) -> Option<String> {
+    /// Undoes what has lasted for its time; what was done, unless the character follows in another way by now.
+    pub(crate) fn end_kd(&mut self, ending: &Expiry) -> Option<Effect> {
         let (Expiry::Weights(character, _) | Expiry::Kd(character) | Expiry::Pins(character)) = *ending else {
             return None;
         };
@@ -75,7 +72,7 @@ impl Stage {
         if *ending == Expiry::Pins(character) {
             let on = !self.kd(character).ok()?.has_pins();
             self.switch_pins(character, on, FADE_SECS).ok()?;
-            return Some(format!("{who}: kinematic forces are {}", if on { "on" } else { "off" }));
+            return Some(Effect::of(who, CharacterEffect::Pins { on }));
         }
         let scene = std::sync::Arc::clone(&self.scene);
         let spec = scene.characters.values().nth(character)?;
@@ -85,13 +82,13 @@ impl Stage {
             Expiry::Weights(_, node) => {
                 let weight = settings.weights[node.index()];
                 kd.set_weight(*node, Some(weight.pin), Some(weight.joint), FADE_SECS);
-                Some(format!("{who}: {} is held as before", node.part()))
+                Some(Effect::of(who, CharacterEffect::WeightsRestored { node: *node }))
             }
             _ => {
                 kd.set_gains(settings.gains, FADE_SECS);
                 kd.set_damping(settings.damping);
                 kd.set_feed_forward(settings.feed_forward);
-                Some(format!("{who}: gains are as before"))
+                Some(Effect::of(who, CharacterEffect::KdGainsRestored))
             }
         }
     }

@@ -1,7 +1,8 @@
 //! What commands do that concern the stage, its props and their joints.
 
 use crate::Stage;
-use crate::apply_command::{number, over, vector};
+use crate::apply_command::{number, vector};
+use crate::event::Effect;
 use crate::fade::Weighs;
 use crate::scene::aim;
 use crate::timed_effect::Expiry;
@@ -9,14 +10,14 @@ use sinew_control::Action;
 use sinew_world::{Entity, Motor};
 
 impl Stage {
-    pub(crate) fn apply_to_stage(&mut self, action: &Action) -> Result<Option<String>, String> {
+    pub(crate) fn apply_to_stage(&mut self, action: &Action) -> Result<Option<Effect>, String> {
         let effect = match action {
             Action::Place { object, position_m, velocity_m_s } => {
                 let prop = self.prop(object)?;
                 let place = |value: &Option<[f64; 3]>, what| value.map(|value| vector(value, what)).transpose();
                 let (position, velocity) = (place(position_m, "position_m")?, place(velocity_m_s, "velocity_m_s")?);
                 self.world.place_prop(prop, position, velocity);
-                format!("{object} is placed")
+                Effect::PropPlaced { prop: object.clone() }
             }
             Action::Accelerate { object, acceleration_m_s2, for_secs } => {
                 let prop = self.prop(object)?;
@@ -24,7 +25,11 @@ impl Stage {
                 let until = self.until(Some(*for_secs))?;
                 self.world.accelerate_prop(prop, acceleration);
                 self.timed_effects.end_at(until, Expiry::Acceleration(prop));
-                format!("{object} is accelerated by {:.2} m/s² for {for_secs:.2} s", acceleration.length())
+                Effect::PropAccelerated {
+                    prop: object.clone(),
+                    acceleration_m_s2: acceleration.length(),
+                    for_secs: *for_secs,
+                }
             }
             Action::Push { on, force_n, for_secs, at_m, .. } => {
                 let prop = self.prop(on)?;
@@ -32,7 +37,7 @@ impl Stage {
                 if !self.start_push(Entity::Prop(prop), force, *at_m, *for_secs)? {
                     return Ok(None);
                 }
-                format!("{on} is pushed with {:.0} N for {for_secs:.2} s", force.length())
+                Effect::PropPushed { prop: on.clone(), force_n: force.length(), for_secs: *for_secs }
             }
             Action::Gravity { scale, on: Some(on), over_secs, for_secs, .. } => {
                 let prop = self.prop(on)?;
@@ -41,7 +46,7 @@ impl Stage {
                 let until = self.until(*for_secs)?;
                 self.weigh(&[Weighs::Prop(prop)], scale, over_secs);
                 self.timed_effects.end_at(until, Expiry::PropGravity(prop));
-                format!("{on}: gravity times {scale}{}", over(over_secs))
+                Effect::PropGravity { prop: on.clone(), scale, over_secs }
             }
             Action::Motor { joint: name, speed_rad_s, angle_deg, speed_m_s, shift_m } => {
                 let joint = self.joint(name)?;
@@ -65,8 +70,8 @@ impl Stage {
                 // A script may say something new at every step; only that a motor starts or stops is worth a note.
                 match (before, motor) {
                     (None, None) | (Some(_), Some(_)) => return Ok(None),
-                    (None, Some(_)) => format!("{name} is driven"),
-                    (Some(_), None) => format!("{name} is driven no longer"),
+                    (None, Some(_)) => Effect::Motor { joint: name.clone(), on: true },
+                    (Some(_), None) => Effect::Motor { joint: name.clone(), on: false },
                 }
             }
             Action::Cut { joint: name } => {
@@ -75,11 +80,11 @@ impl Stage {
                     return Ok(None);
                 }
                 self.broken.insert(joint);
-                format!("{name} is cut")
+                Effect::JointCut { joint: name.clone() }
             }
             Action::Reload { name, text } => self.reload(name, text.as_deref())?,
-            Action::ScriptKilled { name, reason } => self.kill_script(name, reason)?,
-            Action::Say { text } => text.clone(),
+            Action::ScriptKilled { name, reason } => self.kill_script(name, reason),
+            Action::Say { text } => Effect::Said { text: text.clone() },
             _ => return Err("this command needs a character".to_owned()),
         };
         Ok(Some(effect))

@@ -4,6 +4,7 @@ use crate::Stage;
 use crate::actor::Actor;
 use crate::apply_command::heading;
 use crate::cast::Cast;
+use crate::event::{Cause, Effect};
 use crate::motion_source::{self, MotionSource, Play};
 use crate::performance::Performance;
 use crate::scene::{CharacterSpec, RopeSpec, Scene, SourceSpec, TrackerKind};
@@ -185,7 +186,7 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
         if let Some(order) = spec.source.as_ref().and_then(|source| source.reach.as_ref())
             && let Some(effect) = stage.begin_reach(index, order).map_err(wrong)?
         {
-            stage.note("the scene", format!("{name} {effect}"));
+            stage.note(Cause::SceneStart, Effect::of(name, effect));
         }
         if let Some(controller) = &spec.controller {
             stage.start_controller(index, controller).map_err(wrong)?;

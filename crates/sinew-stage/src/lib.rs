@@ -35,7 +35,7 @@ mod tracking;
 pub use actor::Actor;
 pub use build::StageError;
 pub use cast::Cast;
-pub use event::{Event, Events};
+pub use event::{Cause, CharacterEffect, Effect, Event, Events, ReachTarget, ShapeChoice};
 pub use motion_source::MotionSource;
 pub use pacer::Pacer;
 pub use reach_back::{HAND_OVER_SECS, handed_over};

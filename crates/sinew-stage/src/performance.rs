@@ -1,5 +1,6 @@
 //! A character's performer on the stage.
 
+use crate::event::CharacterEffect;
 use sinew_body::humanoid::Pose;
 use sinew_control::perform::{LiveSource, Presence};
 
@@ -65,16 +66,9 @@ impl Performance {
     }
 
     /// Goes on by a step. Returns what the performer did, when it did something.
-    pub fn advance(&mut self, now_secs: f64, step_secs: f64) -> Option<&'static str> {
+    pub fn advance(&mut self, now_secs: f64, step_secs: f64) -> Option<CharacterEffect> {
         let presence = self.source.advance(now_secs, step_secs)?;
-        if presence == Presence::Performing && self.has_understudy_on() {
-            return Some("is performed in place of its understudy");
-        }
-        Some(match presence {
-            Presence::Waiting => "waits for a performer",
-            Presence::Performing => "is performed",
-            Presence::Holding => "hears no performer and holds",
-            Presence::Relaxed => "hears no performer and relaxes",
-        })
+        let replaces_understudy = presence == Presence::Performing && self.has_understudy_on();
+        Some(CharacterEffect::Performer { presence, replaces_understudy })
     }
 }

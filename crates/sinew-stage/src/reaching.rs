@@ -2,6 +2,7 @@
 
 use crate::Stage;
 use crate::actor::Actor;
+use crate::event::{Cause, CharacterEffect, Effect, ReachTarget};
 use crate::reach_aim::{self, Aimed, HANDS};
 use crate::reach_back::{HAND_OVER_SECS, handed_over};
 use crate::scene::TrackerKind;
@@ -111,7 +112,7 @@ impl Actor {
 
 impl Stage {
     /// Begins to reach, from whatever pose the character is in. None when it does so already.
-    pub(crate) fn begin_reach(&mut self, index: usize, order: &ReachOrder) -> Result<Option<String>, String> {
+    pub(crate) fn begin_reach(&mut self, index: usize, order: &ReachOrder) -> Result<Option<CharacterEffect>, String> {
         order.check()?;
         let frame = self.world.frame();
         let now_secs = frame.time_secs;
@@ -170,17 +171,13 @@ impl Stage {
         let arrives_secs = reaching.began_secs + outcome.arrives_secs - now_secs;
         actor.reaching = Some(reaching);
         self.pass_through(index, &aimed);
-        let what = order.object.clone().unwrap_or_else(|| {
-            let point = goal.left.or(goal.right).unwrap_or_default();
-            format!("{point:.2}")
-        });
-        let how = match outcome.steps.len() {
-            0 => String::new(),
-            1 => ", with a step".to_owned(),
-            many => format!(", with {many} steps"),
-        };
-        let fails = outcome.reason.map_or(String::new(), |reason| format!("; {}", reason.text()));
-        Ok(Some(format!("reaches for {what} in {arrives_secs:.2} s{how}{fails}")))
+        let point = || ReachTarget::Point(goal.left.or(goal.right).unwrap_or_default());
+        Ok(Some(CharacterEffect::Reaches {
+            target: order.object.clone().map_or_else(point, ReachTarget::Object),
+            in_secs: arrives_secs,
+            steps: outcome.steps.len(),
+            fails: outcome.reason,
+        }))
     }
 
     /// The reach that a character is about, if it reaches now.
@@ -262,7 +259,7 @@ impl Stage {
         let goal = reaching.goal(frame);
         let (order, outcome) = (reaching.order.clone(), reaching.reacher.outcome().clone());
         let who = self.cast.characters()[index].clone();
-        let (mut notes, mut worst): (Vec<String>, f64) = (Vec::new(), 0.0);
+        let (mut notes, mut worst): (Vec<CharacterEffect>, f64) = (Vec::new(), 0.0);
         let mut holds = Vec::new();
         for (side, target) in [goal.left, goal.right].into_iter().enumerate() {
             let Some(target) = target else { continue };
@@ -274,7 +271,7 @@ impl Stage {
                 _ => None,
             };
             worst = worst.max(gap);
-            notes.push(format!("{who}'s {} is {:.0} mm from its target", node.part(), gap * 1e3));
+            notes.push(CharacterEffect::HandArrives { node, gap_m: gap });
             if order.grasp
                 && outcome.reason.is_none()
                 && gap < GRASP_M
@@ -303,10 +300,10 @@ impl Stage {
                 let target = reaching.reacher.hands_at(reaching.reacher.outcome().arrives_secs)[side];
                 reaching.aimed[side] = Some(Aimed::Point(target));
             }
-            notes.push(format!("{who}'s {} holds {}", node.part(), self.cast.props()[prop]));
+            notes.push(CharacterEffect::Holds { node, object: self.cast.props()[prop].clone() });
         }
         for note in notes {
-            self.note("the reach arrives", note);
+            self.note(Cause::ReachArrives, Effect::of(&who, note));
         }
     }
 }

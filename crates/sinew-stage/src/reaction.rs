@@ -1,6 +1,7 @@
 //! The scene's `[[when]]`: commands when two things touch.
 
 use crate::cast::Cast;
+use crate::event::Cause;
 use crate::scene::Scene;
 use crate::stage::step_of;
 use sinew_control::Command;
@@ -13,7 +14,9 @@ pub(crate) struct Reactions {
 
 struct Waiting {
     touching: [Touchable; 2],
-    words: String,
+    line: usize,
+    /// The two as the scene names them.
+    names: [String; 2],
     command: Command,
     /// Steps until it may fire again; `None` for never.
     repeat_after: Option<u64>,
@@ -28,7 +31,8 @@ impl Reactions {
             let [one, other] = &reaction.touching;
             Some(Waiting {
                 touching: [cast.meaning(one, None)?, cast.meaning(other, None)?],
-                words: format!("scene, line {}: {one} touches {other}", reaction.line),
+                line: reaction.line,
+                names: reaction.touching.clone(),
                 command: reaction.command.clone(),
                 repeat_after: reaction.repeat_after_secs.map(|secs| step_of(secs, step_secs).max(1)),
                 ready_at: Some(0),
@@ -37,8 +41,8 @@ impl Reactions {
         Reactions { list: list.collect() }
     }
 
-    /// Commands of those whose touch begins, with the cause in words.
-    pub fn fired(&mut self, frame: &Frame, cast: &Cast) -> Vec<(Command, String)> {
+    /// Commands of those whose touch begins, with the cause.
+    pub fn fired(&mut self, frame: &Frame, cast: &Cast) -> Vec<(Command, Cause)> {
         let mut fired = Vec::new();
         for waiting in &mut self.list {
             if waiting.ready_at.is_none_or(|step| step > frame.step) {
@@ -50,7 +54,11 @@ impl Reactions {
             });
             if let Some(touch) = touch {
                 waiting.ready_at = waiting.repeat_after.map(|steps| frame.step + steps);
-                let cause = format!("{} ({} on {})", waiting.words, cast.name_of(touch.a), cast.name_of(touch.b));
+                let cause = Cause::Reaction {
+                    line: waiting.line,
+                    touching: waiting.names.clone(),
+                    touched: [touch.a, touch.b].map(|thing| cast.name_of(thing)),
+                };
                 fired.push((waiting.command.clone(), cause));
             }
         }

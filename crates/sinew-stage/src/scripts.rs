@@ -1,6 +1,7 @@
 //! Python controllers on the stage: started, stepped, reloaded, stopped.
 
 use crate::Stage;
+use crate::event::{Cause, Effect};
 use crate::scene::JointKind;
 use crate::script_snapshot::{names, snapshot};
 use sinew_control::{Action, Command};
@@ -81,7 +82,7 @@ impl Stage {
     }
 
     /// Reads a controller's text again, for everything that it runs.
-    pub(crate) fn reload(&mut self, name: &str, text: Option<&str>) -> Result<String, String> {
+    pub(crate) fn reload(&mut self, name: &str, text: Option<&str>) -> Result<Effect, String> {
         let text = match text {
             Some(text) => text.to_owned(),
             None => self.scene.controller_text_again(name)?,
@@ -102,17 +103,17 @@ impl Stage {
         if count == 0 {
             return Err(format!("nothing is run by `{name}`"));
         }
-        Ok(format!("{name} goes on with its new text"))
+        Ok(Effect::Reloaded { controller: name.to_owned() })
     }
 
     /// Stops a script that did not come back, or that did not when the take was recorded.
-    pub(crate) fn kill_script(&mut self, name: &str, reason: &str) -> Result<String, String> {
+    pub(crate) fn kill_script(&mut self, name: &str, reason: &str) -> Effect {
         for owner in self.owners() {
             if let Some(running) = self.running(owner).filter(|running| running.name == name) {
                 running.script.kill();
             }
         }
-        Ok(format!("{name} is stopped: {reason}"))
+        Effect::ScriptStopped { controller: name.to_owned(), reason: reason.to_owned() }
     }
 
     /// Calls every script that runs, in the order of the characters, then of the props, and obeys it.
@@ -131,18 +132,18 @@ impl Stage {
             let name = running.name.clone();
             let outcome = running.script.step(&seen);
             for line in outcome.printed {
-                self.note(format!("{name} prints"), line);
+                self.note(Cause::Print { controller: name.clone() }, Effect::Printed { line });
             }
             for command in outcome.commands {
-                self.apply(&command, &name);
+                self.apply(&command, Cause::Script { controller: name.clone() });
             }
             if let Some(error) = outcome.error {
-                self.note(&name, format!("stopped by an error: {error}"));
+                self.note(Cause::Script { controller: name.clone() }, Effect::ScriptFailed { error });
             }
             if let Some(reason) = outcome.killed {
                 let command = Command::stage(Action::ScriptKilled { name: name.clone(), reason: reason.clone() });
                 self.record.push(crate::take::Stamped { step, command });
-                self.note(&name, format!("stopped: {reason}"));
+                self.note(Cause::Script { controller: name.clone() }, Effect::ScriptKilled { reason });
             }
         }
     }
@@ -157,8 +158,8 @@ impl Stage {
         let Some(kill) = kill.cloned() else { return false };
         self.record.push(kill.clone());
         if let Action::ScriptKilled { reason, .. } = &kill.command.action {
-            let words = self.kill_script(&name, reason);
-            self.note(&name, words.unwrap_or_default());
+            let effect = self.kill_script(&name, reason);
+            self.note(Cause::Script { controller: name }, effect);
         }
         true
     }

@@ -6,14 +6,14 @@
 use crate::actor::Actor;
 use crate::build::{self, StageError};
 use crate::cast::Cast;
-use crate::event::{Event, Events};
+use crate::event::{Cause, CharacterEffect, Effect, Event, Events};
 use crate::reaction::Reactions;
 use crate::scene::Scene;
 use crate::scripts::Running;
 use crate::take::{self, Stamped};
 use crate::timed_effect::TimedEffects;
 use sinew_body::humanoid::Node;
-use sinew_control::{Action, Command};
+use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 use sinew_script::ScriptHost;
 use sinew_world::{Frame, PartShape, World};
 use std::collections::{BTreeMap, BTreeSet};
@@ -133,7 +133,7 @@ impl Stage {
             self.end(&ending);
         }
         while let Some((_, line, command)) = self.timed.pop_if(|(at, ..)| *at <= step) {
-            self.apply(&command, &format!("scene, line {line}"));
+            self.apply(&command, Cause::Timeline { line });
         }
         let prescribed = take::due(self.prescribed.as_deref().unwrap_or_default(), step);
         let prescribed = prescribed.iter().filter(|one| !matches!(one.command.action, Action::ScriptKilled { .. }));
@@ -145,13 +145,16 @@ impl Stage {
                     if self.records {
                         self.record.push(Stamped { step, command: command.clone() });
                     }
-                    self.apply(&command, "command");
+                    self.apply(&command, Cause::Command);
                 }
-                Err(problem) => self.note("command", format!("refused: {problem}")),
+                Err(problem) => {
+                    let error = OrderError::new(OrderErrorKind::WrongState, problem);
+                    self.note(Cause::Command, Effect::Refused(error));
+                }
             }
         }
         for (command, cause) in self.reactions.fired(self.world.frame(), &self.cast) {
-            self.apply(&command, &cause);
+            self.apply(&command, cause);
         }
         self.step_scripts(step);
         self.step_actors();
@@ -226,14 +229,9 @@ impl Stage {
         self.actors.get(character)
     }
 
-    pub(crate) fn note(&mut self, cause: impl Into<String>, effect: impl Into<String>) {
+    pub(crate) fn note(&mut self, cause: Cause, effect: Effect) {
         let frame = self.world.frame();
-        self.events.note(Event {
-            time_secs: frame.time_secs,
-            step: frame.step,
-            cause: cause.into(),
-            effect: effect.into(),
-        });
+        self.events.note(Event { time_secs: frame.time_secs, step: frame.step, cause, effect });
     }
 
     fn push_on(&mut self, step: u64) {
@@ -259,7 +257,7 @@ impl Stage {
             if self.world.frame().characters[index].was_reset {
                 self.actors[index].reset();
                 let name = self.cast.characters()[index].clone();
-                self.note("its body had gone wrong", format!("{name} is put back to where it was last sound"));
+                self.note(Cause::BodyDiverged, Effect::of(name, CharacterEffect::PutBack));
             }
         }
     }
@@ -272,7 +270,7 @@ impl Stage {
         for joint in 0..self.cast.joints().len() {
             if !self.world.prop_joint(joint).is_whole && self.broken.insert(joint) {
                 let name = self.cast.joints()[joint].clone();
-                self.note(format!("{name} bore too much"), format!("{name} breaks"));
+                self.note(Cause::JointOverload { joint: name.clone() }, Effect::JointBreaks { joint: name });
             }
         }
     }

@@ -2,9 +2,10 @@
 
 use crate::Stage;
 use crate::basis::basis_for;
+use crate::event::{Cause, Effect};
 use crate::scene::TrackerKind;
 use sinew_body::humanoid::Node;
-use sinew_control::graph::Cause;
+use sinew_control::graph::Cause as GraphCause;
 use sinew_control::tracker::{KdTracker, KinematicTracker, ResponseTracker};
 
 impl Stage {
@@ -13,24 +14,23 @@ impl Stage {
         let gravity = self.world.settings().gravity_m_s2;
         let now_secs = self.world.frame().time_secs;
         for index in 0..self.actors.len() {
-            if let Some(word) = self.actors[index].step_performance(now_secs) {
-                let name = &self.cast.characters()[index];
-                self.note("its stream", format!("{name} {word}"));
+            if let Some(change) = self.actors[index].step_performance(now_secs) {
+                let name = self.cast.characters()[index].clone();
+                self.note(Cause::Stream, Effect::of(name, change));
             }
             self.step_reach(index);
             if let Some((cause, effect)) = self.actors[index].decide(&self.world, gravity) {
-                let name = &self.cast.characters()[index];
-                let effect = format!("{name}: {effect}");
+                let name = self.cast.characters()[index].clone();
                 let cause = match cause {
-                    Cause::Touch(touch) => format!(
-                        "{} touches {} with {:.2} N s",
-                        self.cast.name_of(touch.a),
-                        self.cast.name_of(touch.b),
-                        touch.impulse.length()
-                    ),
-                    other => other.to_string(),
+                    GraphCause::Touch(touch) => Cause::GraphTouch {
+                        touched: [touch.a, touch.b].map(|thing| self.cast.name_of(thing)),
+                        impulse_n_s: touch.impulse.length(),
+                    },
+                    GraphCause::Timer => Cause::GraphTimer,
+                    GraphCause::Signal => Cause::GraphSignal,
+                    GraphCause::Sensor(value) => Cause::GraphSensor { value },
                 };
-                self.note(cause, effect);
+                self.note(cause, Effect::of(name, effect));
             }
             self.track(index);
         }

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 use sinew_control::perform::{PerformerSample, Presence};
 use sinew_control::{Action, Command};
-use sinew_stage::{Scene, Stage};
+use sinew_stage::{CharacterEffect, Effect, Scene, Stage};
 
 const SCENE: &str = "format = 1\n[characters.red]\nsource = { live = {} }\ntracker = \"kinematic\"\nfacing_deg = 90\n\
                      position_m = [2, 0, 0]\n[characters.blue]\npose = \"stand\"\n";
@@ -65,8 +65,9 @@ fn a_stream_that_ends_is_held_then_the_character_stands_at_ease() {
         stage.step();
     }
     let red = stage.cast().character("red").unwrap();
-    let told: Vec<&str> = stage.events().list().iter().map(|event| event.effect.as_str()).collect();
-    assert_eq!(told, ["red is performed", "red hears no performer and holds", "red hears no performer and relaxes"]);
+    let told: Vec<&Effect> = stage.events().list().iter().map(|event| &event.effect).collect();
+    let does = |presence| Effect::of("red", CharacterEffect::Performer { presence, replaces_understudy: false });
+    assert_eq!(told, [&does(Presence::Performing), &does(Presence::Holding), &does(Presence::Relaxed)]);
     let seen = &stage.frame().characters[red];
     assert!((seen.part(Node::LeftUpperArm).rotation * DVec3::NEG_Y + DVec3::Y).length() < 0.01, "the arm hangs");
     assert_eq!(stage.state_of(red).unwrap().performance().unwrap().presence(), Presence::Relaxed);
@@ -81,7 +82,8 @@ fn a_sample_for_somebody_who_is_not_performed_is_refused_and_changes_nothing() {
         stage.step();
         other.step();
     }
-    assert!(stage.events().list()[0].effect.contains("the character has no performer"));
+    let Effect::Refused(error) = &stage.events().list()[0].effect else { panic!("it is refused") };
+    assert!(error.problem().contains("the character has no performer"), "{error}");
     assert_eq!(stage.hash(), other.hash());
 }
 
@@ -165,8 +167,9 @@ fn an_understudy_acts_until_the_performer_is_heard_and_gives_way_without_a_jump(
     // The arm hangs as the performer's does; on the way nothing moved by more than 2 cm in a step.
     assert!(right_arm(&stage).y < -0.9, "{}", right_arm(&stage));
     assert!(fastest < 0.02, "{fastest}");
-    let told: Vec<&str> = stage.events().list().iter().map(|event| event.effect.as_str()).collect();
-    assert_eq!(told, ["red is performed in place of its understudy"]);
+    let told: Vec<&Effect> = stage.events().list().iter().map(|event| &event.effect).collect();
+    let takes_over = CharacterEffect::Performer { presence: Presence::Performing, replaces_understudy: true };
+    assert_eq!(told, [&Effect::of("red", takes_over)]);
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command, Layer};
-use sinew_stage::{Scene, Stage};
+use sinew_stage::{CharacterEffect, Effect, Scene, Stage};
 
 fn stage(text: &str) -> Stage {
     Stage::new(Scene::from_text(&format!("format = 1\n{text}")).unwrap(), None).unwrap()
@@ -17,7 +17,7 @@ fn steps(stage: &mut Stage, count: usize) {
     }
 }
 
-fn effects(stage: &Stage) -> Vec<(u64, String)> {
+fn effects(stage: &Stage) -> Vec<(u64, Effect)> {
     stage.events().list().iter().map(|event| (event.step, event.effect.clone())).collect()
 }
 
@@ -48,8 +48,8 @@ fn what_lasts_for_a_time_ends_at_its_step() {
     ));
     steps(&mut stage, 240);
     let effects = effects(&stage);
-    assert_eq!(effects[0], (24, "one: gravity times 0".to_owned()));
-    assert_eq!(effects[1], (72, "one: gravity times 1".to_owned()));
+    let gravity = |scale| Effect::of("one", CharacterEffect::Gravity { node: None, scale, over_secs: None });
+    assert_eq!(effects, [(24, gravity(0.0)), (72, gravity(1.0))]);
 }
 
 #[test]
@@ -128,11 +128,12 @@ fn a_command_that_makes_no_sense_is_refused_in_words_and_the_stage_goes_on() {
         stage.command(Command::to("one", action.clone()));
         stage.step();
         let event = &stage.events().list()[refused];
-        assert!(event.effect.starts_with("refused: "), "{action:?}: {}", event.effect);
+        assert!(event.effect.is_refused(), "{action:?}: {}", event.effect);
     }
     stage.command(Command::to("nobody", Action::Say { text: "hm".to_owned() }));
     stage.step();
-    assert!(stage.events().list().last().unwrap().effect.contains("no character `nobody`; known: one"));
+    let Effect::Refused(error) = &stage.events().list().last().unwrap().effect else { panic!("it is refused") };
+    assert!(error.problem().contains("no character `nobody`; known: one"), "{error}");
     assert!(stage.frame().characters[0].pose().is_finite());
     // A take can hold no NaN; the commands that made no sense are not in it.
     assert!(stage.record().is_empty());

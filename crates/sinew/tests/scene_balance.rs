@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use sinew::body::humanoid::Node;
+use sinew::control::Layer;
 use sinew::jobs::run::{Ran, RunJob, replay, run};
-use sinew::stage::Scene;
+use sinew::stage::{CharacterEffect as Did, Effect, Scene};
 use std::path::Path;
 
 fn scene(name: &str) -> Scene {
@@ -42,17 +43,20 @@ fn keys_choose_poses_pushes_and_layers_and_the_take_replays_them() {
     let presses = vec![press(1.0, "g"), press(2.0, "p"), press(4.0, "l"), press(4.2, "k"), press(6.0, "n")];
     let job = RunJob { presses, ..RunJob::default() };
     let ran = run(scene("interactive"), &job, &mut []).unwrap();
-    let effects: Vec<&str> = ran.report.events.iter().map(|event| event.effect.as_str()).collect();
-    assert_eq!(
-        effects,
-        [
-            "hero takes the pose guard",
-            "hero's chest is pushed with 150 N for 0.10 s",
-            "hero: layer poses off",
-            "hero: layer poses on",
-            "hero: layer reflexes off",
-        ]
-    );
+    let effect = |effect: &Effect| match effect.on("hero").cloned().unwrap() {
+        // By its facing, which is a unit vector but for rounding.
+        Did::Pushed { node, force_n, for_secs } => Did::Pushed { node, force_n: force_n.round(), for_secs },
+        other => other,
+    };
+    let effects: Vec<Did> = ran.report.events.iter().map(|event| effect(&event.effect)).collect();
+    let did = [
+        Did::Pose { pose: "guard".to_owned() },
+        Did::Pushed { node: Node::Chest, force_n: 150.0, for_secs: 0.1 },
+        Did::Layer { layer: Layer::Poses, on: false },
+        Did::Layer { layer: Layer::Poses, on: true },
+        Did::Layer { layer: Layer::Reflexes, on: false },
+    ];
+    assert_eq!(effects, did);
     let poses = &ran.recording.characters[0].poses;
     // Between two frames of a sixtieth no joint jumps: 15 rad/s is a fast arm.
     for pair in poses.windows(2) {

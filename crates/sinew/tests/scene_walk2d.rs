@@ -5,7 +5,7 @@
 use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::jobs::run::{Ran, RunJob, run};
-use sinew::stage::Scene;
+use sinew::stage::{Cause, CharacterEffect, Effect, Scene};
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -35,8 +35,13 @@ fn path(node: Node, from_secs: f64, until_secs: f64) -> Vec<DVec3> {
 fn steps(from_secs: f64, until_secs: f64) -> Vec<(f64, &'static str)> {
     let events = RAN.report.events.iter().filter(|event| (from_secs..until_secs).contains(&event.time_secs));
     let steps = events.filter_map(|event| {
-        let foot = ["left", "right"].into_iter().find(|side| event.effect.contains(&format!("{side}_reach to")))?;
-        event.cause.contains(&format!("{foot}Foot")).then_some((event.time_secs, foot))
+        let Effect::Character { effect: CharacterEffect::Transition { from, .. }, .. } = &event.effect else {
+            return None;
+        };
+        let Cause::GraphTouch { touched, .. } = &event.cause else { return None };
+        let foot = ["left", "right"].into_iter().find(|side| *from == format!("{side}_reach"))?;
+        let is_own = touched.iter().any(|thing| *thing == format!("walker.{foot}Foot"));
+        is_own.then_some((event.time_secs, foot))
     });
     steps.collect()
 }
@@ -83,7 +88,8 @@ fn pushes_from_behind_and_from_the_front_do_not_end_the_walk() {
         let hips = path(Node::Hips, from, until);
         (hips[hips.len() - 1].z - hips[0].z) / (until - from)
     };
-    let pushes = RAN.report.events.iter().filter(|event| event.effect.contains("push")).count();
+    let is_push = |effect: &Effect| matches!(effect.on("walker"), Some(CharacterEffect::Pushed { .. }));
+    let pushes = RAN.report.events.iter().filter(|event| is_push(&event.effect)).count();
     assert!(pushes >= 2, "{:#?}", RAN.report.events);
     // 100 N s on 80 kg are 1.25 m/s, 40 N s are 0.5 m/s; joints and the ground take some of it at once.
     let before = forward(5.8, 7.0);

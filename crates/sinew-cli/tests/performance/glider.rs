@@ -4,6 +4,7 @@
 use crate::stage::{character, prop, shipped, until, when};
 use glam::DVec3;
 use sinew::body::humanoid::Node;
+use sinew::stage::Effect;
 
 #[test]
 fn the_pilot_steers_through_every_gate_in_its_order_and_stays_on_the_glider() {
@@ -17,7 +18,7 @@ fn the_pilot_steers_through_every_gate_in_its_order_and_stays_on_the_glider() {
         let own = deck.rotation.conjugate() * (hips - deck.position);
         off = off.max(DVec3::new(own.x, 0.0, own.z).length());
     });
-    let times = [1, 2, 3, 4].map(|gate| when(&stage, &format!("gate {gate} is passed")));
+    let times = [1, 2, 3, 4].map(|gate| when(&stage, &Effect::Said { text: format!("gate {gate} is passed") }));
     assert!(times.is_sorted(), "{times:?}");
     assert!(lowest > 1.2, "{lowest}");
     assert!(off < 0.4, "{off} m from the middle of the deck");

@@ -5,7 +5,7 @@ use crate::stage::{centre, character, of, prop_centre, until, when};
 use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::control::{Action, Command};
-use sinew::stage::{Scene, Stage};
+use sinew::stage::{Cause, CharacterEffect, Effect, Scene, Stage};
 use std::collections::BTreeMap;
 
 /// Somebody who stands, and two balls at the right hand: the nearer one weighs 2 kg.
@@ -100,7 +100,8 @@ fn a_script_a_key_and_a_command_each_take_the_nearest_thing() {
             .held()
             .map(|held| format!("{} {}", held.node.part(), stage.cast().name_of(held.object)))
             .collect();
-        let at = when(&stage, "one's rightHand holds near");
+        let holds = CharacterEffect::Holds { node: Node::RightHand, object: "near".to_owned() };
+        let at = when(&stage, &Effect::of("one", holds));
         (held, at)
     };
     let by_command = grasped(&|stage| stage.command(grasp(false, None)), "Idle");
@@ -155,10 +156,11 @@ fn a_grasp_breaks_above_its_force_and_says_so() {
         pull(&mut stage, 300.0);
         until(&mut stage, 3.0, |_| ());
         assert_eq!(stage.world().held().count(), 0, "soft {soft}");
-        let at = when(&stage, "one.rightHand loses its hold of near");
-        assert!(at > 2.0, "{at}");
-        let event = stage.events().list().iter().find(|event| event.effect.contains("loses its hold")).unwrap();
-        assert!(event.cause.ends_with("N are more than 150 N"), "{}", event.cause);
+        let loses = Effect::of("one", CharacterEffect::LosesHold { node: Node::RightHand, object: "near".to_owned() });
+        let event = stage.events().list().iter().find(|event| event.effect == loses).unwrap();
+        assert!(event.time_secs > 2.0, "{}", event.time_secs);
+        let Cause::HoldOverload { force_n, max_n } = event.cause else { panic!("{}", event.cause) };
+        assert!(force_n > max_n && max_n == 150.0, "{}", event.cause);
     }
 }
 

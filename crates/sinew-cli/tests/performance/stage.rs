@@ -3,7 +3,7 @@
 use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::script::{Limits, ScriptHost};
-use sinew::stage::{Scene, Stage};
+use sinew::stage::{Effect, Scene, Stage};
 use sinew::world::{CharacterFrame, Entity};
 use std::path::{Path, PathBuf};
 
@@ -40,7 +40,7 @@ pub fn until(stage: &mut Stage, time_secs: f64, mut look: impl FnMut(&Stage)) {
         .events()
         .list()
         .iter()
-        .filter(|event| event.effect.contains("refused") || event.effect.contains("error"))
+        .filter(|event| matches!(event.effect, Effect::Refused(_) | Effect::ScriptFailed { .. }))
         .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
@@ -82,7 +82,7 @@ pub fn lower_ankle_m(stage: &Stage, name: &str) -> f64 {
 }
 
 /// When something first happened \[s\].
-pub fn when(stage: &Stage, effect: &str) -> f64 {
-    let found = stage.events().list().iter().find(|event| event.effect.contains(effect));
+pub fn when(stage: &Stage, effect: &Effect) -> f64 {
+    let found = stage.events().list().iter().find(|event| event.effect == *effect);
     found.unwrap_or_else(|| panic!("no `{effect}` in {:#?}", stage.events().list())).time_secs
 }

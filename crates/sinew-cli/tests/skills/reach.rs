@@ -1,12 +1,12 @@
 //! Scenes in which somebody reaches.
 
-use super::{character, event, frame, path, prop};
+use super::{character, event, frame, holds, path, prop};
 use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::jobs::reach::ReachReport;
 use sinew::jobs::run::{Ran, RunJob, run};
 use sinew::script::{Limits, ScriptHost};
-use sinew::stage::Scene;
+use sinew::stage::{Cause, CharacterEffect, Scene};
 use std::path::Path;
 
 /// Figure 4 of Huang et al. (2011).
@@ -109,8 +109,12 @@ fn a_bumped_reach_yields_and_still_arrives() {
 #[test]
 fn a_box_is_reached_grasped_lifted_and_put_on_a_shelf() {
     let ran = play("reach_grasp", &[]);
-    let held = event(&ran, "rightHand holds box", "the reach arrives");
-    let let_go = event(&ran, "rightHand lets go of box", "");
+    let held = holds(&ran, Node::RightHand, "box", |cause| *cause == Cause::ReachArrives);
+    let let_go = event(
+        &ran,
+        |effect| *effect == CharacterEffect::LetsGo { node: Node::RightHand, objects: vec!["box".to_owned()] },
+        |_| true,
+    );
     let places = prop(&ran, "box");
     // Nothing pushes it before it is held.
     assert!((places[frame(&ran, held) - 1] - places[0]).length() < 0.02);

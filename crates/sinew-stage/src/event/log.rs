@@ -1,8 +1,9 @@
-//! What happened, for the report.
+//! The list of events.
 
+use super::{Cause, Effect};
 use serde::Serialize;
 
-/// Something that happened on the stage, with its cause.
+/// Something that happened on the stage, with its cause. In a report both are texts, as `Display` writes them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Event {
     /// When \[s\].
@@ -10,9 +11,9 @@ pub struct Event {
     /// In which physics step.
     pub step: u64,
     /// Why.
-    pub cause: String,
+    pub cause: Cause,
     /// What.
-    pub effect: String,
+    pub effect: Effect,
 }
 
 /// Events so far. Of very many only the first are kept, and the rest counted.
@@ -25,17 +26,15 @@ pub struct Events {
 /// Events that are kept.
 const MAX_EVENTS: usize = 10_000;
 
-/// Length of a cause or an effect that is kept \[bytes\].
-const MAX_TEXT: usize = 400;
-
 impl Events {
-    /// Notes an event.
-    pub fn note(&mut self, event: Event) {
+    /// Notes an event. Of a text that somebody else wrote the first 400 bytes are kept.
+    pub fn note(&mut self, mut event: Event) {
         if self.list.len() >= MAX_EVENTS {
             self.dropped += 1;
             return;
         }
-        self.list.push(Event { cause: cut(event.cause), effect: cut(event.effect), ..event });
+        event.effect.shorten();
+        self.list.push(event);
     }
 
     /// Those that were kept.
@@ -47,13 +46,4 @@ impl Events {
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
-}
-
-fn cut(mut text: String) -> String {
-    if text.len() > MAX_TEXT {
-        let end = (0..=MAX_TEXT).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);
-        text.truncate(end);
-        text.push('…');
-    }
-    text
 }
