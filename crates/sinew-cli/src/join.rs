@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use sinew::control::Command;
 use sinew::jobs::session::{JoinReport, View};
 use sinew::live::Port;
-use sinew::live::session::{Client, Role, Standing, Token};
+use sinew::live::session::{Client, ConnectionState, Role, Token};
 use std::io::BufRead;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
@@ -90,7 +90,7 @@ impl Join {
             stats.frames_that_differ,
             stats.round_trip_ms
         )];
-        lines.extend(stats.not_passed.iter().map(|problem| format!("not passed on: {problem}")));
+        lines.extend(stats.rejected.iter().map(|problem| format!("rejected by the server: {problem}")));
         lines.extend(self.out.files().words(std::iter::empty()));
         output::say(&lines.join("\n"))?;
         if stats.frames_that_differ > 0 {
@@ -109,7 +109,7 @@ impl Join {
         presses.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let mut presses = presses.into_iter().peekable();
         let began = Instant::now();
-        let mut stood = Standing::Connected;
+        let mut stood = ConnectionState::Connected;
         loop {
             let passed = began.elapsed().as_secs_f64();
             if self.for_secs.is_some_and(|secs| passed >= secs) {
@@ -131,12 +131,12 @@ impl Join {
             {
                 view.push(&frame);
             }
-            let stands = client.standing();
+            let stands = client.state();
             if stands != stood {
                 match &stands {
-                    Standing::Connected => eprintln!("connected again"),
-                    Standing::Rejoining => eprintln!("the connection is lost; trying again"),
-                    Standing::Ended(why) => {
+                    ConnectionState::Connected => eprintln!("connected again"),
+                    ConnectionState::Rejoining => eprintln!("the connection is lost; trying again"),
+                    ConnectionState::Ended(why) => {
                         eprintln!("{why}");
                         return Ok(());
                     }
@@ -157,7 +157,7 @@ impl Join {
             return Ok(token);
         };
         let token: Token = self.line(&read_small(path)?).parse()?;
-        Ok(token.at(&self.server)?)
+        Ok(token.with_address(&self.server)?)
     }
 
     fn line<'a>(&self, text: &'a str) -> &'a str {

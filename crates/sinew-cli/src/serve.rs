@@ -27,7 +27,7 @@ pub(crate) struct Serve {
     token_file: Option<PathBuf>,
     /// Clients that may be in at a time.
     #[arg(long, value_name = "N", default_value_t = 32)]
-    most_clients: usize,
+    max_clients: usize,
     /// How long to run [s]; until interrupted when left out.
     #[arg(long = "for", value_name = "SECONDS")]
     for_secs: Option<f64>,
@@ -57,7 +57,7 @@ impl Serve {
         for (path, value) in &self.set {
             scene.set(path, value)?;
         }
-        let settings = ServerSettings { bind: self.bind, name: self.name.clone(), most_clients: self.most_clients };
+        let settings = ServerSettings { bind: self.bind, name: self.name.clone(), max_clients: self.max_clients };
         let (server, queue) = Server::open(&settings, SceneManifest::of(&scene)?)?;
         self.tell(&server, &scene)?;
         server.stop_on_interrupt();
@@ -87,10 +87,10 @@ impl Serve {
             format!(
                 "{} clients joined, {} strangers refused; {} orders passed, {} refused, {} dropped",
                 clients.joined,
-                clients.strangers_refused,
-                clients.orders,
-                clients.orders_refused,
-                clients.orders_dropped
+                clients.connections_refused,
+                clients.requests,
+                clients.requests_refused,
+                clients.requests_dropped
             ),
         ];
         lines.extend(self.out.files().words(self.take.iter()));

@@ -1,98 +1,98 @@
-//! A bad network, made to order: a pure function of a seed, so that a test on a virtual clock and a rehearsal in real time see
-//! the same one.
+//! A simulated bad network: a pure function of a seed, so that a test on a virtual clock and a rehearsal in real time
+//! see the same losses and delays.
 
 use crate::vmc::VmcFrame;
 use glam::{DQuat, DVec3};
 use sinew_motion::Part;
 
-/// What the network does to a stream. Shares are probabilities from 0 to 1.
+/// What the network does to a stream. Shares are probabilities from 0 to 1; the default impairs nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Impairment {
-    /// Every datagram is late by so much \[s\].
+    /// Delay of every datagram \[s\].
     pub delay_secs: f64,
-    /// And by up to so much more, evenly \[s\].
+    /// Maximum of the additional delay, uniformly distributed from 0 (jitter) \[s\].
     pub jitter_secs: f64,
-    /// Share that never arrives.
+    /// Share that is lost.
     pub loss: f64,
     /// Share that arrives twice.
     pub duplicate: f64,
-    /// Share that is held back by one to three frames.
+    /// Share that is delayed by one to three frames, and so arrives out of order.
     pub reorder: f64,
-    /// Share that is spoilt.
+    /// Share that is corrupted.
     pub corrupt: f64,
-    /// Where the randomness comes from.
+    /// Seed of the random generator.
     pub seed: u64,
 }
 
-/// How a frame is spoilt.
+/// How a frame is corrupted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corruption {
-    /// A number that is none.
+    /// A coordinate is NaN.
     NonFinite,
-    /// A turn that is no rotation.
+    /// A quaternion is not normalised.
     NonUnit,
-    /// The performer is metres away.
+    /// The performer is displaced by 5 m.
     Jump,
-    /// The time stamp is of seconds ago.
+    /// The time stamp is 5 s too early.
     Stale,
-    /// The datagram is cut off.
-    Cut,
+    /// The datagram is truncated.
+    Truncated,
 }
 
-/// What becomes of one frame.
+/// How one frame is delivered.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fate {
-    /// When its copies arrive after they were sent \[s\]; none when it is lost.
+pub struct Delivery {
+    /// Time from sending to the arrival of each copy \[s\]; both are `None` when it is lost.
     pub arrivals_secs: [Option<f64>; 2],
-    /// Whether and how it is spoilt.
+    /// How it is corrupted, if it is.
     pub corruption: Option<Corruption>,
 }
 
 impl Impairment {
-    /// What becomes of a frame of this number, in a stream with so much time between frames \[s\].
+    /// How the frame of this number is delivered, in a stream with `interval_secs` between frames \[s\].
     ///
     /// ```
     /// use sinew_live::Impairment;
     /// let bad = Impairment { loss: 0.05, seed: 1, ..Impairment::default() };
-    /// let lost = (0..10_000).filter(|&number| bad.fate(number, 1.0 / 60.0).arrivals_secs[0].is_none()).count();
+    /// let lost = (0..10_000).filter(|&number| bad.delivery(number, 1.0 / 60.0).arrivals_secs[0].is_none()).count();
     /// assert!((400..600).contains(&lost));
-    /// assert_eq!(bad.fate(7, 0.1), bad.fate(7, 0.1), "a pure function");
+    /// assert_eq!(bad.delivery(7, 0.1), bad.delivery(7, 0.1), "a pure function");
     /// ```
-    pub fn fate(&self, number: u64, interval_secs: f64) -> Fate {
+    pub fn delivery(&self, number: u64, interval_secs: f64) -> Delivery {
         let mut random = Random::new(self.seed, number);
-        // All are drawn whatever happens, so that one share does not change what another one hits.
-        let [lost, twice, held, spoilt, held_by, how] = std::array::from_fn(|_| random.unit());
-        let ways = [random.unit(), random.unit()].map(|unit| self.delay_secs + self.jitter_secs * unit);
+        // All numbers are always drawn, so that one share does not change which frames another one affects.
+        let [lost, twice, held, corrupted, held_by, how] = std::array::from_fn(|_| random.unit());
+        let delays = [random.unit(), random.unit()].map(|unit| self.delay_secs + self.jitter_secs * unit);
         if lost < self.loss {
-            return Fate { arrivals_secs: [None, None], corruption: None };
+            return Delivery { arrivals_secs: [None, None], corruption: None };
         }
         let held = if held < self.reorder { (1.0 + (held_by * 3.0).floor()) * interval_secs } else { 0.0 };
-        let corruption = (spoilt < self.corrupt).then_some(match (how * 5.0) as u32 {
+        let corruption = (corrupted < self.corrupt).then_some(match (how * 5.0) as u32 {
             0 => Corruption::NonFinite,
             1 => Corruption::NonUnit,
             2 => Corruption::Jump,
             3 => Corruption::Stale,
-            _ => Corruption::Cut,
+            _ => Corruption::Truncated,
         });
-        let second = (twice < self.duplicate).then_some(ways[1] + held);
-        Fate { arrivals_secs: [Some(ways[0] + held), second], corruption }
+        let second = (twice < self.duplicate).then_some(delays[1] + held);
+        Delivery { arrivals_secs: [Some(delays[0] + held), second], corruption }
     }
 }
 
 impl Corruption {
-    /// The spoilt datagram.
-    pub fn spoil(self, frame: &VmcFrame) -> Vec<u8> {
+    /// The corrupted datagram of a frame.
+    pub fn apply(self, frame: &VmcFrame) -> Vec<u8> {
         let mut frame = frame.clone();
         match self {
-            Corruption::NonFinite => frame.places[Part::Hips as usize].x = f64::NAN,
+            Corruption::NonFinite => frame.positions[Part::Hips as usize].x = f64::NAN,
             Corruption::NonUnit => {
-                frame.turns[Part::Chest as usize] = DQuat::from_xyzw(0.7, 0.7, 0.7, 0.7);
+                frame.rotations[Part::Chest as usize] = DQuat::from_xyzw(0.7, 0.7, 0.7, 0.7);
             }
             Corruption::Jump => {
-                frame.places[Part::Hips as usize] += DVec3::new(4.0, 0.0, 3.0);
+                frame.positions[Part::Hips as usize] += DVec3::new(4.0, 0.0, 3.0);
             }
             Corruption::Stale => frame.time_secs -= 5.0,
-            Corruption::Cut => {
+            Corruption::Truncated => {
                 let mut bytes = frame.to_bytes();
                 bytes.truncate(bytes.len() / 2 + 1);
                 return bytes;
@@ -102,7 +102,7 @@ impl Corruption {
     }
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014), begun anew for every frame.
+/// SplitMix64 (Steele, Lea, Flood 2014), seeded anew for every frame.
 struct Random(u64);
 
 impl Random {
@@ -120,7 +120,7 @@ impl Random {
         mixed ^ (mixed >> 31)
     }
 
-    /// From 0 up to, but not, 1.
+    /// Uniform in [0, 1).
     fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }

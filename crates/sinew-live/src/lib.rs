@@ -1,7 +1,8 @@
-//! Live performers and sessions: what comes in from the network, and what goes out to it.
+//! Live performers and sessions over a network: motion capture streams in, simulated poses out, and one stage shared by
+//! several machines.
 //!
-//! Nothing here knows how a pose is followed: a capture stream becomes samples, samples become [`Command`]s, and the stage
-//! does the rest.
+//! This crate does not know how a pose is followed: a capture stream becomes samples, samples become [`Command`]s, and
+//! the stage does the rest.
 //!
 //! [`Command`]: sinew_control::Command
 
@@ -16,7 +17,7 @@ mod raw_player;
 pub mod session;
 pub mod vmc;
 
-pub use impairment::{Corruption, Fate, Impairment};
+pub use impairment::{Corruption, Delivery, Impairment};
 pub use mirror::Mirror;
 pub use performers::{Latency, Performers};
 pub use player::ClipPlayer;

@@ -1,4 +1,4 @@
-//! The simulated result, back to any program that shows VMC.
+//! Sends the simulated pose to any program that displays VMC.
 
 use crate::vmc::VmcFrame;
 use sinew_control::perform::PerformerSample;
@@ -15,19 +15,19 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// Of a character (its place in the cast), to an address.
+    /// For a character, by its index in the scene, to an address.
     ///
     /// # Errors
-    /// When no socket can be opened.
+    /// The socket cannot be opened.
     pub fn open(character: usize, to: SocketAddr) -> std::io::Result<Mirror> {
         let any = if to.is_ipv4() { "0.0.0.0:0" } else { "[::]:0" };
         let socket = UdpSocket::bind(any)?;
-        // A viewer that does not keep up must not hold the stage.
+        // A slow viewer must not block the stage.
         socket.set_nonblocking(true)?;
         Ok(Mirror { socket, to, character, number: 0 })
     }
 
-    /// Sends what the stage shows now. What cannot be sent is left out: the next one is newer.
+    /// Sends the present pose. A datagram that cannot be sent now is dropped: the next one is newer.
     pub fn send(&mut self, stage: &Stage) {
         let (Some(seen), Some(body)) =
             (stage.frame().characters.get(self.character), stage.world().body(self.character))

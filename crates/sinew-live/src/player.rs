@@ -1,4 +1,4 @@
-//! A clip as an actor: what a performer of the clip would send, and when it arrives.
+//! A clip as a performer: the datagrams that a performer of the clip would send, and when they arrive.
 
 use crate::impairment::Impairment;
 use crate::vmc::VmcFrame;
@@ -15,17 +15,18 @@ pub struct ClipPlayer {
     interval_secs: f64,
 }
 
-/// Most frames that are kept: an hour at 60 Hz.
+/// Maximum number of frames: an hour at 60 Hz.
 const MAX_FRAMES: usize = 216_000;
 
 impl ClipPlayer {
-    /// Reads the performer out of a motion file, at a rate \[Hz\]. A pose at the beginning in which nobody moves yet is left out.
+    /// Reads a performer from a motion file and resamples it at `hz`, 1 to 1000 Hz. A still pose at the beginning is
+    /// skipped.
     ///
     /// # Errors
-    /// A file that holds no human body: why.
+    /// A rate out of range, or a file without a human body.
     pub fn new(file: &MotionFile, hz: f64) -> Result<ClipPlayer, String> {
         if !(1.0..=1000.0).contains(&hz) {
-            return Err(format!("{hz} frames a second are out of range; give 1 to 1000"));
+            return Err(format!("a rate of {hz} Hz is out of range; give 1 to 1000"));
         }
         let humanoid = file.body_parts().map_err(|error| error.to_string())?;
         let reduction = Reduction::new(&file.clip, humanoid, file.stature_m, Person::default());
@@ -38,10 +39,10 @@ impl ClipPlayer {
         ClipPlayer::of_poses(reduction.body().clone(), poses, hz)
     }
 
-    /// A performer of this body with these poses.
+    /// A performer with this body and these poses, `hz` of them a second.
     ///
     /// # Errors
-    /// When there are none.
+    /// No poses.
     pub fn of_poses(body: Body, poses: Vec<Pose>, hz: f64) -> Result<ClipPlayer, String> {
         if poses.is_empty() {
             return Err("the clip has no frames".to_owned());
@@ -64,34 +65,34 @@ impl ClipPlayer {
         self.interval_secs
     }
 
-    /// The pose of a frame. After the last one the clip is played backwards, and so on: nobody jumps.
+    /// The pose of a frame. The clip plays forwards and backwards in turn, without a jump.
     pub fn pose(&self, number: u64) -> &Pose {
-        &self.poses[to_and_fro(number, self.poses.len())]
+        &self.poses[ping_pong(number, self.poses.len())]
     }
 
-    /// What the performer sends as its frame of this number.
+    /// The sample that the performer sends as the frame of this number.
     pub fn sample(&self, number: u64) -> PerformerSample {
         let time_secs = number as f64 * self.interval_secs;
         let sample = PerformerSample::of_pose(time_secs, self.pose(number), &self.body);
         PerformerSample { number: Some(number), ..sample }
     }
 
-    /// The datagrams of a frame, each with the time at which it arrives after the performance began \[s\].
+    /// The datagrams of a frame, each with its arrival time from the start of the performance \[s\].
     pub fn datagrams(&self, number: u64, impairment: &Impairment) -> impl Iterator<Item = (f64, Vec<u8>)> + use<> {
         let sample = self.sample(number);
         let frame = VmcFrame::of(&sample, &self.body);
-        let fate = impairment.fate(number, self.interval_secs);
-        let bytes = match fate.corruption {
-            Some(corruption) => corruption.spoil(&frame),
+        let delivery = impairment.delivery(number, self.interval_secs);
+        let bytes = match delivery.corruption {
+            Some(corruption) => corruption.apply(&frame),
             None => frame.to_bytes(),
         };
         let sent_secs = sample.time_secs;
-        fate.arrivals_secs.into_iter().flatten().map(move |after| (sent_secs + after, bytes.clone()))
+        delivery.arrivals_secs.into_iter().flatten().map(move |after| (sent_secs + after, bytes.clone()))
     }
 }
 
-/// Which of `count` frames is shown as the one of this number, when they are played forwards and backwards in turn.
-pub(crate) fn to_and_fro(number: u64, count: usize) -> usize {
+/// Index of the frame to show, when `count` frames are played forwards and backwards in turn.
+pub(crate) fn ping_pong(number: u64, count: usize) -> usize {
     let last = count.saturating_sub(1) as u64;
     let at = if last == 0 { 0 } else { number % (2 * last) };
     at.min(2 * last - at) as usize

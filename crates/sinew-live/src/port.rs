@@ -1,4 +1,4 @@
-//! Ports that performers are heard on, each with a thread of its own.
+//! Ports that receive performers' streams, each on its own thread.
 
 use crate::raw::RawReader;
 use crate::vmc::{MAX_DATAGRAM_BYTES, VmcReader};
@@ -10,16 +10,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Samples that wait for the stage; older ones give way.
+/// Maximum number of samples that wait for the stage; the oldest are dropped.
 const MAX_WAITING: usize = 64;
 
-/// How long a port belongs to a sender that has fallen silent.
-const OWNED: Duration = Duration::from_secs(2);
+/// Time for which a port stays reserved for a silent sender.
+const SENDER_TIMEOUT: Duration = Duration::from_secs(2);
 
-/// How often a thread looks whether it is to end.
-const LOOK: Duration = Duration::from_millis(100);
+/// Interval at which a thread checks whether the port is closed.
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 
-/// A port cannot be opened.
+/// A port that cannot be opened.
 #[derive(Debug, thiserror::Error)]
 #[error("port {address}: {error}; is it in use? Choose another in the scene's source")]
 pub struct PortError {
@@ -27,14 +27,14 @@ pub struct PortError {
     error: std::io::Error,
 }
 
-/// What came in that is no sample of the stage.
+/// Input that did not become a sample of the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PortCounters {
-    /// Datagrams or lines that could not be read.
+    /// Malformed datagrams or lines.
     pub malformed: u64,
-    /// Datagrams of somebody else than the present performer.
+    /// Datagrams from another address than the present sender's.
     pub foreign: u64,
-    /// Samples that were thrown away because the stage did not take them in time.
+    /// Samples dropped because the stage did not take them in time.
     pub overflown: u64,
 }
 
@@ -48,20 +48,20 @@ pub struct Port {
 
 #[derive(Debug, Default)]
 struct Shared {
-    heard: Mutex<Heard>,
+    inbox: Mutex<Inbox>,
     ends: AtomicBool,
 }
 
 #[derive(Debug, Default)]
-struct Heard {
+struct Inbox {
     samples: VecDeque<(Instant, PerformerSample)>,
     counters: PortCounters,
 }
 
 impl Shared {
-    fn heard(&self) -> MutexGuard<'_, Heard> {
-        // Nothing is left half done under it.
-        self.heard.lock().unwrap_or_else(PoisonError::into_inner)
+    fn inbox(&self) -> MutexGuard<'_, Inbox> {
+        // A poisoned lock guards valid data: no update can be interrupted halfway.
+        self.inbox.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn ends(&self) -> bool {
@@ -69,12 +69,12 @@ impl Shared {
     }
 
     fn push(&self, arrival: Instant, sample: PerformerSample) {
-        let mut heard = self.heard();
-        if heard.samples.len() >= MAX_WAITING {
-            heard.samples.pop_front();
-            heard.counters.overflown += 1;
+        let mut inbox = self.inbox();
+        if inbox.samples.len() >= MAX_WAITING {
+            inbox.samples.pop_front();
+            inbox.counters.overflown += 1;
         }
-        heard.samples.push_back((arrival, sample));
+        inbox.samples.push_back((arrival, sample));
     }
 }
 
@@ -82,48 +82,48 @@ impl Port {
     /// Listens for VMC on a UDP port; port 0 takes a free one.
     ///
     /// # Errors
-    /// When the port is taken or not ours.
+    /// The port is in use, or the address does not belong to this machine.
     pub fn vmc(address: SocketAddr) -> Result<Port, PortError> {
         let wrong = |error| PortError { address, error };
         let socket = UdpSocket::bind(address).map_err(wrong)?;
-        socket.set_read_timeout(Some(LOOK)).map_err(wrong)?;
+        socket.set_read_timeout(Some(POLL_INTERVAL)).map_err(wrong)?;
         let own = socket.local_addr().map_err(wrong)?;
-        Ok(Port::begin(own, move |shared| hear_vmc(&socket, shared)))
+        Ok(Port::begin(own, move |shared| receive_vmc(&socket, shared)))
     }
 
-    /// Listens for a raw stream on a TCP port; port 0 takes a free one. One connection at a time is heard.
+    /// Listens for a raw stream on a TCP port; port 0 takes a free one. One connection is served at a time.
     ///
     /// # Errors
-    /// When the port is taken or not ours.
+    /// The port is in use, or the address does not belong to this machine.
     pub fn raw(address: SocketAddr) -> Result<Port, PortError> {
         let wrong = |error| PortError { address, error };
         let listener = TcpListener::bind(address).map_err(wrong)?;
         listener.set_nonblocking(true).map_err(wrong)?;
         let own = listener.local_addr().map_err(wrong)?;
-        Ok(Port::begin(own, move |shared| hear_raw(&listener, shared)))
+        Ok(Port::begin(own, move |shared| receive_raw(&listener, shared)))
     }
 
-    fn begin(address: SocketAddr, hear: impl FnOnce(&Shared) + Send + 'static) -> Port {
+    fn begin(address: SocketAddr, receive: impl FnOnce(&Shared) + Send + 'static) -> Port {
         let shared = Arc::new(Shared::default());
         let theirs = Arc::clone(&shared);
         let thread = std::thread::Builder::new().name(format!("port {}", address.port()));
-        let thread = thread.spawn(move || hear(&theirs)).ok();
+        let thread = thread.spawn(move || receive(&theirs)).ok();
         Port { address, shared, thread }
     }
 
-    /// Where it listens.
+    /// The bound address.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
 
-    /// The next sample and when it arrived.
+    /// The next sample and the time of its arrival.
     pub fn next(&self) -> Option<(Instant, PerformerSample)> {
-        self.shared.heard().samples.pop_front()
+        self.shared.inbox().samples.pop_front()
     }
 
-    /// What came in besides.
+    /// Counters of input that did not become a sample.
     pub fn counters(&self) -> PortCounters {
-        self.shared.heard().counters
+        self.shared.inbox().counters
     }
 }
 
@@ -136,26 +136,26 @@ impl Drop for Port {
     }
 }
 
-fn hear_vmc(socket: &UdpSocket, shared: &Shared) {
+fn receive_vmc(socket: &UdpSocket, shared: &Shared) {
     let began = Instant::now();
     let mut reader = VmcReader::new();
     let mut owner: Option<(SocketAddr, Instant)> = None;
-    // One more than allowed, so that a larger datagram is seen to be one.
+    // One byte more than the maximum, so that a larger datagram is detected.
     let mut bytes = vec![0; MAX_DATAGRAM_BYTES + 1];
     while !shared.ends() {
         let (length, from) = match socket.recv_from(&mut bytes) {
             Ok(got) => got,
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => continue,
             Err(_) => {
-                std::thread::sleep(LOOK);
+                std::thread::sleep(POLL_INTERVAL);
                 continue;
             }
         };
         let arrival = Instant::now();
         match owner {
-            Some((address, heard)) if address != from => {
-                if arrival.duration_since(heard) < OWNED {
-                    shared.heard().counters.foreign += 1;
+            Some((address, last_received)) if address != from => {
+                if arrival.duration_since(last_received) < SENDER_TIMEOUT {
+                    shared.inbox().counters.foreign += 1;
                     continue;
                 }
                 reader = VmcReader::new();
@@ -164,39 +164,39 @@ fn hear_vmc(socket: &UdpSocket, shared: &Shared) {
         }
         let arrival_secs = arrival.duration_since(began).as_secs_f64();
         match reader.datagram(&bytes[..length], arrival_secs, &mut |sample| shared.push(arrival, sample)) {
-            // Only who speaks VMC can own the port.
+            // Only a sender of valid VMC reserves the port.
             Ok(()) => owner = Some((from, arrival)),
-            Err(_) => shared.heard().counters.malformed += 1,
+            Err(_) => shared.inbox().counters.malformed += 1,
         }
     }
 }
 
-fn hear_raw(listener: &TcpListener, shared: &Shared) {
+fn receive_raw(listener: &TcpListener, shared: &Shared) {
     let began = Instant::now();
     while !shared.ends() {
         match listener.accept() {
-            Ok((stream, _)) => hear_stream(stream, shared, began),
-            Err(_) => std::thread::sleep(LOOK / 4),
+            Ok((stream, _)) => receive_stream(stream, shared, began),
+            Err(_) => std::thread::sleep(POLL_INTERVAL / 4),
         }
     }
 }
 
-fn hear_stream(mut stream: TcpStream, shared: &Shared, began: Instant) {
-    if stream.set_nonblocking(false).and_then(|()| stream.set_read_timeout(Some(LOOK))).is_err() {
+fn receive_stream(mut stream: TcpStream, shared: &Shared, began: Instant) {
+    if stream.set_nonblocking(false).and_then(|()| stream.set_read_timeout(Some(POLL_INTERVAL))).is_err() {
         return;
     }
     let mut reader = RawReader::new();
-    let mut heard = Instant::now();
+    let mut last_received = Instant::now();
     let mut bytes = vec![0; 16 << 10];
-    while !shared.ends() && heard.elapsed() < 5 * OWNED {
+    while !shared.ends() && last_received.elapsed() < 5 * SENDER_TIMEOUT {
         match stream.read(&mut bytes) {
             Ok(0) => return,
             Ok(length) => {
-                heard = Instant::now();
-                let arrival_secs = heard.duration_since(began).as_secs_f64();
+                last_received = Instant::now();
+                let arrival_secs = last_received.duration_since(began).as_secs_f64();
                 reader.bytes(&bytes[..length], arrival_secs, &mut |result| match result {
-                    Ok(sample) => shared.push(heard, sample),
-                    Err(_) => shared.heard().counters.malformed += 1,
+                    Ok(sample) => shared.push(last_received, sample),
+                    Err(_) => shared.inbox().counters.malformed += 1,
                 });
             }
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {}

@@ -1,15 +1,15 @@
-//! A BVH file as a suit that broadcasts raw: what it would send, line by line.
+//! A BVH file as a motion capture suit that broadcasts raw BVH: the header, then line by line.
 
 use std::time::Duration;
 
-/// A BVH file, ready to be sent to a port that hears [`raw`](crate::raw).
+/// A BVH file, ready to be sent to a port for [`raw`](crate::raw) streams.
 ///
 /// ```
 /// use sinew_live::RawPlayer;
 /// let text = "HIERARCHY\nROOT Hips\n{\n}\nMOTION\nFrames: 2\nFrame Time: 0.02\n0 1 0\n0 2 0\n";
 /// let player = RawPlayer::new(text).unwrap();
 /// assert!(player.header().ends_with("MOTION\nFrame Time: 0.02\n"));
-/// // Forwards and backwards in turn: nobody jumps.
+/// // Forwards and backwards in turn, without a jump.
 /// assert_eq!([0, 1, 2].map(|number| player.line(number)), ["0 1 0", "0 2 0", "0 1 0"]);
 /// ```
 #[derive(Clone, Debug)]
@@ -20,15 +20,15 @@ pub struct RawPlayer {
 }
 
 impl RawPlayer {
-    /// Takes a BVH's text apart. The text is not understood further: whoever hears it does that.
+    /// Splits the text of a BVH file into header and lines; the receiver parses them.
     ///
     /// # Errors
-    /// A text without hierarchy, frame time or frames: what is missing.
+    /// A text without hierarchy, frame time or frames.
     pub fn new(text: &str) -> Result<RawPlayer, String> {
         let mut lines = text.lines().map(str::trim);
         let hierarchy: Vec<&str> = lines.by_ref().take_while(|line| !line.eq_ignore_ascii_case("MOTION")).collect();
         if !hierarchy.first().is_some_and(|line| line.eq_ignore_ascii_case("HIERARCHY")) {
-            return Err("a raw stream is sent from a BVH, which begins with HIERARCHY".to_owned());
+            return Err("the text is not BVH, which begins with HIERARCHY".to_owned());
         }
         let (heads, rows): (Vec<&str>, Vec<&str>) =
             lines.filter(|line| !line.is_empty()).partition(|line| line.contains(':'));
@@ -46,14 +46,14 @@ impl RawPlayer {
         })
     }
 
-    /// What is sent first.
+    /// The header, which is sent first.
     pub fn header(&self) -> &str {
         &self.header
     }
 
-    /// The line of the frame of this number, without its end. After the last one the clip is played backwards, and so on.
+    /// The line of the frame of this number, without its line end. The clip plays forwards and backwards in turn.
     pub fn line(&self, number: u64) -> &str {
-        &self.lines[crate::player::to_and_fro(number, self.lines.len())]
+        &self.lines[crate::player::ping_pong(number, self.lines.len())]
     }
 
     /// Time from frame to frame.

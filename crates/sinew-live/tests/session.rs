@@ -9,7 +9,7 @@ use session_house::{ServerState, agree, join, replayed, until, watch_until};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 use sinew_control::perform::PerformerSample;
 use sinew_control::{Action, Command};
-use sinew_live::session::{Client, LinkConditions, Refusal, Relay, Role, SessionError, Standing, Token};
+use sinew_live::session::{Client, ConnectionState, LinkConditions, Refusal, Relay, Role, SessionError, Token};
 use std::time::Duration;
 
 #[test]
@@ -57,14 +57,14 @@ fn an_actor_commands_itself_and_nobody_else_and_the_operator_all() {
     red.command(Command::to("blue", Action::Gain { factor: 0.0, part: None }));
     red.press("b");
     red.press("no such key");
-    until("the refusals", || red.stats().not_passed.len() == 3);
+    until("the refusals", || red.stats().rejected.len() == 3);
     let operator = join(&state.token(Role::Operator), &[]).unwrap();
     operator.press("b");
     operator.command(Command::to("blue", Action::Gain { factor: 0.9, part: None }));
     operator.command(Command::stage(Action::Reload { name: "x".into(), text: Some("import os".into()) }));
-    until("the operator's refusal", || operator.stats().not_passed.len() == 1);
-    until("the orders", || state.counts().orders == 2);
-    assert_eq!(state.counts().orders_refused, 4);
+    until("the operator's refusal", || operator.stats().rejected.len() == 1);
+    until("the orders", || state.counts().requests == 2);
+    assert_eq!(state.counts().requests_refused, 4);
     let done = state.close();
     let by: Vec<&str> = done.applied.iter().map(|applied| applied.by.as_str()).collect();
     assert_eq!(by, ["operator", "operator"]);
@@ -77,7 +77,7 @@ fn without_the_tokens_secret_or_the_servers_certificate_nobody_joins() {
     let guessed = Token { secret: [0; 32], ..token.clone() };
     assert_eq!(join(&guessed, &[]).err(), Some(SessionError::Refused(Refusal::Secret)));
     let elsewhere = Token { fingerprint: [0; 32], ..token.clone() };
-    assert!(matches!(join(&elsewhere, &[]).err(), Some(SessionError::Impostor { .. })));
+    assert!(matches!(join(&elsewhere, &[]).err(), Some(SessionError::WrongCertificate { .. })));
     let Err(SessionError::Refused(Refusal::NoActor { known, .. })) = join(&token, &["white"]) else { panic!() };
     assert_eq!(known, "blue, green, red");
     let first = join(&token, &["red"]).unwrap();
@@ -101,11 +101,11 @@ fn over_a_bad_network_hashes_agree_and_a_lost_client_comes_back_as_itself() {
     watch_until(&red, 120);
     // Blue is cut off for longer than a connection lives: like a host that is switched off, and back.
     blue_way.cut(true);
-    until("the loss", || blue.standing() == Standing::Rejoining);
+    until("the loss", || blue.state() == ConnectionState::Rejoining);
     let lost = blue.stats().last_step.unwrap();
-    assert!(red.standing() == Standing::Connected, "red goes on");
+    assert!(red.state() == ConnectionState::Connected, "red goes on");
     blue_way.cut(false);
-    until("blue's return", || blue.standing() == Standing::Connected && blue.stats().last_step.unwrap() > lost);
+    until("blue's return", || blue.state() == ConnectionState::Connected && blue.stats().last_step.unwrap() > lost);
     red.press("p");
     let now = red.stats().last_step.unwrap();
     watch_until(&red, now + 240);

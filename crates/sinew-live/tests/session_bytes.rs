@@ -5,7 +5,9 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_control::perform::{PerformerSample, SampleStatus};
-use sinew_live::session::{ClientSays, Hello, PROTOCOL, Refusal, ServerSays, Upward, decode_frame, encode_frame};
+use sinew_live::session::{
+    ClientDatagram, ClientMessage, Hello, PROTOCOL, Refusal, ServerMessage, decode_frame, encode_frame,
+};
 use sinew_world::{BodyState, CharacterFrame, Contact, Entity, Frame};
 
 /// A frame whose every number is another.
@@ -75,14 +77,14 @@ fn a_sample_arrives_with_all_its_bits_and_fits_a_packet() {
     let lost = PerformerSample { status: SampleStatus::Untracked, number: Some(u64::MAX), ..plain.clone() };
     let whole = PerformerSample::of_pose(-7.0, &Pose::STANDING, &Body::standard(60.0, 1.6));
     for sample in [plain, lost, whole] {
-        let upward = Upward::Performed { actor: 3, sample: Box::new(sample) };
-        let bytes = upward.to_bytes();
+        let datagram = ClientDatagram::Performed { actor: 3, sample: Box::new(sample) };
+        let bytes = datagram.to_bytes();
         // QUIC promises packets of 1200 bytes, of which it takes some tens itself.
         assert!(bytes.len() <= 450, "{} bytes", bytes.len());
         for end in 0..bytes.len() {
-            assert!(Upward::read(&bytes[..end]).is_err());
+            assert!(ClientDatagram::read(&bytes[..end]).is_err());
         }
-        assert_eq!(Upward::read(&bytes), Ok(upward));
+        assert_eq!(ClientDatagram::read(&bytes), Ok(datagram));
     }
 }
 
@@ -110,10 +112,10 @@ proptest! {
     #[test]
     fn no_bytes_bring_a_reader_down(bytes in proptest::collection::vec(any::<u8>(), 0..4000)) {
         let _ = decode_frame(&bytes);
-        let _ = Upward::read(&bytes);
+        let _ = ClientDatagram::read(&bytes);
         let _ = Hello::read(&bytes);
-        let _ = ClientSays::read(&bytes);
-        let _ = ServerSays::read(&bytes);
+        let _ = ClientMessage::read(&bytes);
+        let _ = ServerMessage::read(&bytes);
     }
 
     #[test]
@@ -133,6 +135,6 @@ proptest! {
 
     #[test]
     fn text_that_is_almost_a_message_is_read_or_refused(text in r#"\{"(command|press|leave)": ?[\[\]{}":,a-z0-9.\-]{0,60}\}"#) {
-        let _ = ClientSays::read(text.as_bytes());
+        let _ = ClientMessage::read(text.as_bytes());
     }
 }

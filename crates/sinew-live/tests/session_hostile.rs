@@ -9,7 +9,7 @@ use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, Server
 use rustls::pki_types::{CertificateDer, ServerName, UnixTime};
 use rustls::{DigitallySignedStruct, SignatureScheme};
 use session_house::{ServerState, agree, join, until, watch_until};
-use sinew_live::session::{Client, PROTOCOL, Role, Standing, Token};
+use sinew_live::session::{Client, ConnectionState, PROTOCOL, Role, Token};
 use std::net::UdpSocket;
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use std::sync::Arc;
 fn goes_on(red: &Client) {
     let now = red.stats().last_step.unwrap();
     watch_until(red, now + 60);
-    assert_eq!(red.standing(), Standing::Connected);
+    assert_eq!(red.state(), ConnectionState::Connected);
     let stats = red.stats();
     assert_eq!((stats.frames_that_differ, stats.frames_malformed, stats.rejoined), (0, 0, 0));
 }
@@ -48,7 +48,7 @@ impl Rude {
     }
 
     fn connect(&self, token: &Token) -> quinn::Connection {
-        let to = token.place().parse().unwrap();
+        let to = token.address().parse().unwrap();
         self.runtime.block_on(async { self.endpoint.connect(to, "x").unwrap().await.unwrap() })
     }
 
@@ -106,7 +106,7 @@ fn garbage_and_floods_before_the_greeting_harm_nobody() {
     assert!(join(&token, &["blue"]).is_ok(), "there is room for one who greets");
     until("the end of the silent", || silent.iter().all(|connection| connection.close_reason().is_some()));
     goes_on(&red);
-    assert!(state.counts().strangers_refused >= 15, "{:?}", state.counts());
+    assert!(state.counts().connections_refused >= 15, "{:?}", state.counts());
     agree(&red.stats().hashes, &state.close().hashes);
 }
 
@@ -134,7 +134,7 @@ fn who_breaks_the_rules_after_joining_is_cut_off_alone() {
     assert!(is_cut_off(closed), "datagrams of noise");
     goes_on(&red);
     assert!(join(&token, &["blue"]).is_ok(), "its actor is free again");
-    assert_eq!(state.counts().orders, 0);
+    assert_eq!(state.counts().requests, 0);
     agree(&red.stats().hashes, &state.close().hashes);
 }
 
@@ -168,7 +168,7 @@ fn who_takes_nothing_or_sends_too_much_slows_only_itself() {
     goes_on(&red);
     let before = red.stats().sent.len();
     red.press("p");
-    until("red's press", || state.counts().orders >= 1);
+    until("red's press", || state.counts().requests >= 1);
     assert_eq!(red.stats().sent.len(), before + 1);
     until("frames that nobody takes", || state.counts().frames_dropped > 0);
     goes_on(&red);

@@ -1,7 +1,7 @@
-//! The server's certificate, which signs itself, and the client that believes in that one alone.
+//! The server's self-signed certificate, and the client that trusts only this certificate (certificate pinning).
 
 use super::SessionError;
-use super::limits::{IDLE, MAX_FRAMES_UNDER_WAY};
+use super::limits::{IDLE_TIMEOUT, MAX_FRAMES_IN_FLIGHT};
 use quinn::crypto::rustls::{QuicClientConfig, QuicServerConfig};
 use quinn::{IdleTimeout, TransportConfig, VarInt};
 use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, ServerCertVerifier};
@@ -11,16 +11,16 @@ use rustls::{DigitallySignedStruct, SignatureScheme};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What both sides call the protocol inside TLS.
+/// ALPN name of the protocol.
 const ALPN: &[u8] = b"sinew-session";
 
-/// The name in the certificate; nobody looks at it.
+/// The name in the certificate; it is not checked.
 const NAME: &str = "sinew";
 
-/// What a wrong certificate is told as, so that it can be told apart.
+/// Error text for a wrong certificate; [`is_wrong_certificate`] searches for it.
 const NOT_PINNED: &str = "not the certificate of the token";
 
-/// A server's side, and the fingerprint of its new certificate.
+/// Configuration of a server, and the fingerprint of its new certificate.
 pub(super) fn server_side() -> Result<(quinn::ServerConfig, [u8; 32]), SessionError> {
     let made = rcgen::generate_simple_self_signed([NAME.to_owned()]).map_err(machine)?;
     let certificate = made.cert.der().clone();
@@ -33,12 +33,12 @@ pub(super) fn server_side() -> Result<(quinn::ServerConfig, [u8; 32]), SessionEr
         .with_single_cert(vec![certificate], key.into())
         .map_err(machine)?;
     tls.alpn_protocols = vec![ALPN.to_vec()];
-    // Nothing may be said before the handshake is over.
+    // No data before the handshake is complete (no 0-RTT).
     tls.max_early_data_size = 0;
     let quic = QuicServerConfig::try_from(tls).map_err(machine)?;
     let mut config = quinn::ServerConfig::with_crypto(Arc::new(quic));
     let mut transport = transport()?;
-    // A client has its control stream and nothing else; what it performs comes in datagrams.
+    // A client may open its control stream and nothing else; its performance arrives in datagrams.
     transport
         .max_concurrent_bidi_streams(VarInt::from_u32(1))
         .max_concurrent_uni_streams(VarInt::from_u32(0))
@@ -51,7 +51,7 @@ pub(super) fn server_side() -> Result<(quinn::ServerConfig, [u8; 32]), SessionEr
     Ok((config, print))
 }
 
-/// A client's side, which talks to the holder of one certificate only.
+/// Configuration of a client that accepts one certificate only.
 pub(super) fn client_side(fingerprint: [u8; 32]) -> Result<quinn::ClientConfig, SessionError> {
     let provider = provider();
     let pinned = Pinned { fingerprint, algorithms: provider.signature_verification_algorithms };
@@ -68,17 +68,17 @@ pub(super) fn client_side(fingerprint: [u8; 32]) -> Result<quinn::ClientConfig, 
     let mut transport = transport()?;
     transport
         .max_concurrent_bidi_streams(VarInt::from_u32(0))
-        .max_concurrent_uni_streams(VarInt::from_u32(MAX_FRAMES_UNDER_WAY))
+        .max_concurrent_uni_streams(VarInt::from_u32(MAX_FRAMES_IN_FLIGHT))
         .receive_window(VarInt::from_u32(8 << 20))
         .datagram_send_buffer_size(64 << 10)
-        // Without a buffer of its own it may not send any.
+        // QUIC allows a side to send datagrams only if it also has a receive buffer for them.
         .datagram_receive_buffer_size(Some(16 << 10));
     config.transport_config(Arc::new(transport));
     Ok(config)
 }
 
 /// Whether a connection failed because of the certificate.
-pub(super) fn is_impostor(error: &quinn::ConnectionError) -> bool {
+pub(super) fn is_wrong_certificate(error: &quinn::ConnectionError) -> bool {
     matches!(error, quinn::ConnectionError::TransportError(error) if error.reason.contains(NOT_PINNED))
 }
 
@@ -87,7 +87,7 @@ pub(super) fn server_name() -> &'static str {
     NAME
 }
 
-/// What is sent before the first answer \[bytes\]: a few frames.
+/// Initial congestion window \[bytes\]: a few frames.
 const FIRST_WINDOW: u64 = 48 << 10;
 
 fn transport() -> Result<TransportConfig, SessionError> {
@@ -96,7 +96,7 @@ fn transport() -> Result<TransportConfig, SessionError> {
     let mut transport = TransportConfig::default();
     transport
         .congestion_controller_factory(Arc::new(window))
-        .max_idle_timeout(Some(IdleTimeout::try_from(IDLE).map_err(machine)?))
+        .max_idle_timeout(Some(IdleTimeout::try_from(IDLE_TIMEOUT).map_err(machine)?))
         .keep_alive_interval(Some(Duration::from_secs(1)))
         .initial_rtt(Duration::from_millis(100));
     Ok(transport)
@@ -107,7 +107,7 @@ fn provider() -> Arc<CryptoProvider> {
 }
 
 fn machine(error: impl std::fmt::Display) -> SessionError {
-    SessionError::Machine(format!("the encryption cannot be set up: {error}"))
+    SessionError::Local(format!("the encryption cannot be set up: {error}"))
 }
 
 fn fingerprint(certificate: &CertificateDer) -> [u8; 32] {
@@ -117,7 +117,7 @@ fn fingerprint(certificate: &CertificateDer) -> [u8; 32] {
     print
 }
 
-/// Believes in one certificate. Names, dates and authorities say nothing here: the token does.
+/// Accepts one certificate. Names, dates and authorities are ignored: the token carries the fingerprint.
 #[derive(Debug)]
 struct Pinned {
     fingerprint: [u8; 32],

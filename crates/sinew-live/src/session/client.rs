@@ -1,10 +1,10 @@
-//! A client: joins, performs and commands, and sees what happens.
+//! A client: joins a session, sends performance and commands, and receives frames.
 
-use super::client_stats::{ClientStats, Standing};
-use super::limits::{MAX_ACTORS_OF_ONE, MAX_NAME, QUIET};
-use super::link::{Link, Seen, Up, is_lost};
-use super::message::{ClientSays, Welcome};
-use super::upward::Upward;
+use super::client_datagram::ClientDatagram;
+use super::client_stats::{ClientStats, ConnectionState};
+use super::limits::{ACTOR_TIMEOUT, MAX_ACTORS_PER_CLIENT, MAX_NAME};
+use super::link::{Link, Outgoing, Received, is_lost};
+use super::message::{ClientMessage, Welcome};
 use super::{Refusal, SessionError, Token};
 use sinew_control::Command;
 use sinew_control::perform::PerformerSample;
@@ -15,120 +15,121 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use tokio::sync::mpsc;
 
-/// A place in a session. It leaves when it is dropped.
+/// A connection to a session. Dropping it leaves the session.
 pub struct Client {
     scene: Scene,
     welcome: Welcome,
-    up: mpsc::Sender<Up>,
+    outbox: mpsc::Sender<Outgoing>,
     frames: Receiver<Arc<Frame>>,
-    seen: Arc<Seen>,
-    standing: Arc<Mutex<Standing>>,
+    received: Arc<Received>,
+    state: Arc<Mutex<ConnectionState>>,
     runtime: Option<tokio::runtime::Runtime>,
 }
 
-/// Actors of one client, as a byte counts them.
-const MAX_ACTORS: u8 = MAX_ACTORS_OF_ONE as u8;
+/// Maximum number of actors of one client; an actor's index is one byte.
+const MAX_ACTORS: u8 = MAX_ACTORS_PER_CLIENT as u8;
 
-/// Orders that wait to be sent.
-const MAX_UP: usize = 256;
+/// Maximum number of requests that wait to be sent.
+const MAX_OUTGOING: usize = 256;
 
-/// Frames that wait to be looked at.
+/// Maximum number of received frames that wait for [`Client::next_frame`].
 const MAX_FRAMES: usize = 256;
 
-/// Tries to come back, and the time between two.
+/// Maximum number of attempts to reconnect, and the time between two.
 const REJOIN_TRIES: u32 = 40;
 const REJOIN_EVERY: Duration = Duration::from_millis(250);
 
 impl Client {
-    /// Joins a session as some actors, or as none to watch or operate. An actor that a lost client of the same name still seems
-    /// to play is waited for a moment.
+    /// Joins a session as some actors, or without an actor to watch or operate. If a lost client still holds an actor,
+    /// it retries until the server's timeout for that client has passed.
     ///
     /// # Errors
-    /// When nobody answers, the server is not the token's, or it refuses.
+    /// The server does not answer, has another certificate than the token's, or refuses.
     pub fn join(token: &Token, actors: &[String]) -> Result<Client, SessionError> {
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(1)
             .thread_name("sinew-client")
             .enable_all()
             .build()
-            .map_err(|error| SessionError::Machine(error.to_string()))?;
-        let link = runtime.block_on(make(token, actors))?;
+            .map_err(|error| SessionError::Local(error.to_string()))?;
+        let link = runtime.block_on(connect_with_retry(token, actors))?;
         let scene = scene_of(&link.scene)?;
         let welcome = link.welcome.clone();
-        let (up, wanted) = mpsc::channel(MAX_UP);
+        let (outbox, outgoing) = mpsc::channel(MAX_OUTGOING);
         let (frame, frames) = sync_channel(MAX_FRAMES);
-        let seen = Arc::new(Seen { stats: Mutex::default(), frames: frame });
-        let standing = Arc::new(Mutex::new(Standing::Connected));
-        let stay = stay(token.clone(), actors.to_vec(), link, Arc::clone(&seen), wanted, Arc::clone(&standing));
-        runtime.spawn(stay);
-        Ok(Client { scene, welcome, up, frames, seen, standing, runtime: Some(runtime) })
+        let received = Arc::new(Received { stats: Mutex::default(), frames: frame });
+        let state = Arc::new(Mutex::new(ConnectionState::Connected));
+        let run = run(token.clone(), actors.to_vec(), link, Arc::clone(&received), outgoing, Arc::clone(&state));
+        runtime.spawn(run);
+        Ok(Client { scene, welcome, outbox, frames, received, state, runtime: Some(runtime) })
     }
 
-    /// The scene that is played.
+    /// The session's scene.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// What the server said first.
+    /// The server's first message.
     pub fn welcome(&self) -> &Welcome {
         &self.welcome
     }
 
-    /// The next frame, newer than those before; waits for it so long. Of frames that nobody fetched in time some are left out.
+    /// The next frame, newer than all before it; waits up to `within`. When the queue of received frames is full, newer
+    /// frames are dropped.
     pub fn next_frame(&self, within: Duration) -> Option<Arc<Frame>> {
         self.frames.recv_timeout(within).ok()
     }
 
-    /// Sends a command, to be applied in the next step. False when too many wait already.
+    /// Sends a command; the server applies it in the next step after it arrives. False when the send queue is full.
     pub fn command(&self, command: Command) -> bool {
         let what = serde_json::to_value(&command.action).ok();
         let what = what.and_then(|action| Some(action.get("do")?.as_str()?.to_owned()));
-        let sent = self.up.try_send(Up::Say(ClientSays::Command(command))).is_ok();
+        let sent = self.outbox.try_send(Outgoing::Message(ClientMessage::Command(command))).is_ok();
         if sent {
-            self.seen.stats().note_sent(what.unwrap_or_default());
+            self.received.stats().note_sent(what.unwrap_or_default());
         }
         sent
     }
 
-    /// Presses a key of the scene. False when too many orders wait already.
+    /// Presses a key of the scene. False when the send queue is full.
     pub fn press(&self, key: &str) -> bool {
         let key: String = key.chars().take(MAX_NAME / 4).collect();
-        let sent = self.up.try_send(Up::Say(ClientSays::Press(key.clone()))).is_ok();
+        let sent = self.outbox.try_send(Outgoing::Message(ClientMessage::Press(key.clone()))).is_ok();
         if sent {
-            self.seen.stats().note_sent(key);
+            self.received.stats().note_sent(key);
         }
         sent
     }
 
-    /// Sends what one of its actors performs, the first being 0: at once or not at all. A sample of an actor that it does not play
-    /// is not sent.
+    /// Sends a performance sample of one of its actors, counted from 0, unreliably: a lost sample is not sent again. A
+    /// sample for an actor that this client does not play is dropped.
     pub fn perform(&self, actor: usize, sample: PerformerSample) {
         let Ok(actor @ 0..MAX_ACTORS) = u8::try_from(actor) else { return };
-        let upward = Upward::Performed { actor, sample: Box::new(sample) };
+        let datagram = ClientDatagram::Performed { actor, sample: Box::new(sample) };
         let is_its = usize::from(actor) < self.welcome.actors.len();
-        if is_its && self.up.try_send(Up::Throw(upward.to_bytes())).is_err() {
-            self.seen.stats().samples_not_sent += 1;
+        if is_its && self.outbox.try_send(Outgoing::Datagram(datagram.to_bytes())).is_err() {
+            self.received.stats().samples_not_sent += 1;
         }
     }
 
-    /// What it has received.
+    /// Statistics of what it has received.
     pub fn stats(&self) -> ClientStats {
-        self.seen.stats().clone()
+        self.received.stats().clone()
     }
 
-    /// How it stands.
-    pub fn standing(&self) -> Standing {
-        self.standing.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    /// The state of its connection.
+    pub fn state(&self) -> ConnectionState {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }
 
 impl Drop for Client {
     fn drop(&mut self) {
         let Some(runtime) = self.runtime.take() else { return };
-        let _ = self.up.try_send(Up::Say(ClientSays::Leave));
-        let standing = Arc::clone(&self.standing);
+        let _ = self.outbox.try_send(Outgoing::Message(ClientMessage::Leave));
+        let state = Arc::clone(&self.state);
         let left = async move {
-            while !matches!(*standing.lock().unwrap_or_else(PoisonError::into_inner), Standing::Ended(_)) {
+            while !matches!(*state.lock().unwrap_or_else(PoisonError::into_inner), ConnectionState::Ended(_)) {
                 tokio::time::sleep(Duration::from_millis(2)).await;
             }
         };
@@ -144,12 +145,12 @@ fn scene_of(bytes: &[u8]) -> Result<Scene, SessionError> {
     take.to_scene(None).map_err(|error| unread(error.to_string()))
 }
 
-/// Joins; an actor that somebody still seems to play is asked for again until its silence would have been noticed.
-async fn make(token: &Token, actors: &[String]) -> Result<Link, SessionError> {
+/// Connects. If an actor is taken, retries for twice [`ACTOR_TIMEOUT`], in which the server notices a lost client.
+async fn connect_with_retry(token: &Token, actors: &[String]) -> Result<Link, SessionError> {
     let mut waited = Duration::ZERO;
     loop {
-        match Link::make(token, actors).await {
-            Err(SessionError::Refused(Refusal::Taken { .. })) if waited < 2 * QUIET => {
+        match Link::connect(token, actors).await {
+            Err(SessionError::Refused(Refusal::Taken { .. })) if waited < 2 * ACTOR_TIMEOUT => {
                 tokio::time::sleep(REJOIN_EVERY).await;
                 waited += REJOIN_EVERY;
             }
@@ -158,34 +159,34 @@ async fn make(token: &Token, actors: &[String]) -> Result<Link, SessionError> {
     }
 }
 
-/// Keeps the link, and makes it anew when it is lost.
-async fn stay(
+/// Runs the connection, and reconnects when it is lost.
+async fn run(
     token: Token,
     actors: Vec<String>,
     mut link: Link,
-    seen: Arc<Seen>,
-    mut wanted: mpsc::Receiver<Up>,
-    standing: Arc<Mutex<Standing>>,
+    received: Arc<Received>,
+    mut outgoing: mpsc::Receiver<Outgoing>,
+    state: Arc<Mutex<ConnectionState>>,
 ) {
-    let set = |now: Standing| *standing.lock().unwrap_or_else(PoisonError::into_inner) = now;
+    let set = |now: ConnectionState| *state.lock().unwrap_or_else(PoisonError::into_inner) = now;
     loop {
-        let mut ended = link.keep(&seen, &mut wanted).await;
+        let mut ended = link.run(&received, &mut outgoing).await;
         let mut tries = 0;
         link = loop {
-            if !is_lost(&ended) || tries >= REJOIN_TRIES || wanted.is_closed() {
-                return set(Standing::Ended(ended));
+            if !is_lost(&ended) || tries >= REJOIN_TRIES || outgoing.is_closed() {
+                return set(ConnectionState::Ended(ended));
             }
-            set(Standing::Rejoining);
-            match make(&token, &actors).await {
+            set(ConnectionState::Rejoining);
+            match connect_with_retry(&token, &actors).await {
                 Ok(link) => break link,
                 Err(error) => ended = error,
             }
             tries += 1;
             tokio::time::sleep(REJOIN_EVERY).await;
         };
-        // What was wanted meanwhile is over.
-        while wanted.try_recv().is_ok() {}
-        seen.stats().rejoined += 1;
-        set(Standing::Connected);
+        // Requests that were queued while disconnected are out of date.
+        while outgoing.try_recv().is_ok() {}
+        received.stats().rejoined += 1;
+        set(ConnectionState::Connected);
     }
 }

@@ -1,13 +1,13 @@
-//! One client, seen from the server: from its first word to its last.
+//! The server's side of one client's connection, from handshake to close.
 
-use super::channel::{hear, say};
+use super::channel::{receive_message, send_message};
+use super::client_datagram::ClientDatagram;
 use super::limits::*;
-use super::message::{ClientSays, Hello, ServerSays, Welcome, short};
-use super::pace::Pace;
+use super::message::{ClientMessage, Hello, ServerMessage, Welcome, short};
+use super::rate_limit::RateLimit;
 use super::role_assignments::RoleAssignments;
 use super::server::{PendingConnection, SceneManifest};
-use super::stage_queue::{Order, Placed, Sent, Shared, count};
-use super::upward::Upward;
+use super::stage_queue::{ClientRequest, QueuedRequest, Sent, Shared, count};
 use super::{Refusal, Role, SessionError, permit};
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
@@ -21,24 +21,24 @@ use subtle::ConstantTimeEq;
 use tokio::sync::{mpsc, watch};
 use tokio::time::timeout;
 
-/// Why a connection is closed, for the other side's words.
+/// QUIC application error codes with which a connection is closed.
 pub(super) const CLOSED: u32 = 0;
 pub(super) const REFUSED: u32 = 1;
 pub(super) const GARBAGE: u32 = 2;
 pub(super) const REPLACED: u32 = 3;
 
-/// What all guests share.
+/// What all connections share.
 pub(super) struct ServerState {
     pub manifest: SceneManifest,
     pub roles: Mutex<RoleAssignments<Connection>>,
     pub secrets: [(Role, [u8; 32]); 2],
-    pub order: SyncSender<Placed>,
+    pub request: SyncSender<QueuedRequest>,
     pub frames: watch::Receiver<Sent>,
     pub shared: Arc<Shared>,
-    pub most_clients: usize,
+    pub max_clients: usize,
 }
 
-/// A client that is in.
+/// A client that has joined.
 struct ClientConnection {
     number: u64,
     role: Role,
@@ -48,25 +48,25 @@ struct ClientConnection {
     connection: Connection,
 }
 
-/// Hears who it is, and keeps it as long as it stays.
-pub(super) async fn receive(state: Arc<ServerState>, number: u64, connection: Connection, stranger: PendingConnection) {
-    let greeted = timeout(HELLO_WITHIN, greet(&state, number, &connection)).await;
-    drop(stranger);
+/// Performs the handshake, then serves the client until its connection ends.
+pub(super) async fn receive(state: Arc<ServerState>, number: u64, connection: Connection, pending: PendingConnection) {
+    let greeted = timeout(HELLO_TIMEOUT, handshake(&state, number, &connection)).await;
+    drop(pending);
     let (client, to, from) = match greeted {
         Ok(Ok(greeted)) => greeted,
         Ok(Err(_)) | Err(_) => {
-            count(&state.shared.counts.strangers_refused);
-            connection.close(GARBAGE.into(), b"no greeting");
+            count(&state.shared.counts.connections_refused);
+            connection.close(GARBAGE.into(), b"no valid hello message");
             return;
         }
     };
     let Some(client) = client else {
-        count(&state.shared.counts.strangers_refused);
-        refuse_politely(&connection, to).await;
+        count(&state.shared.counts.connections_refused);
+        refuse_after_answer(&connection, to).await;
         return;
     };
     count(&state.shared.counts.joined);
-    let ended = client.stay(to, from).await;
+    let ended = client.serve(to, from).await;
     state.roles().leave(number);
     state.shared.counts.present.fetch_sub(1, Ordering::Relaxed);
     match ended {
@@ -76,21 +76,21 @@ pub(super) async fn receive(state: Arc<ServerState>, number: u64, connection: Co
     }
 }
 
-/// Waits a moment until the refusal has been read.
-async fn refuse_politely(connection: &Connection, mut to: SendStream) {
+/// Closes the connection once the client has read the refusal, or after two seconds.
+async fn refuse_after_answer(connection: &Connection, mut to: SendStream) {
     let _ = to.finish();
     let _ = timeout(Duration::from_secs(2), to.stopped()).await;
     connection.close(REFUSED.into(), b"refused");
 }
 
-/// Reads the greeting. `None` when the client has been told why it is refused.
-async fn greet(
+/// Reads the hello message. The client is `None` if it was refused and told why.
+async fn handshake(
     state: &Arc<ServerState>,
     number: u64,
     connection: &Connection,
 ) -> Result<(Option<ClientConnection>, SendStream, RecvStream), SessionError> {
     let (mut to, mut from) = connection.accept_bi().await.map_err(ended)?;
-    let bytes = hear(&mut from, MAX_HELLO).await?;
+    let bytes = receive_message(&mut from, MAX_HELLO).await?;
     match state.admit(number, &bytes.unwrap_or_default(), connection) {
         Ok((role, actors)) => {
             let by = if actors.is_empty() { role.name().to_owned() } else { actors.join(", ") };
@@ -98,7 +98,7 @@ async fn greet(
             Ok((Some(ClientConnection { number, role, actors, by: by.into(), state, connection }), to, from))
         }
         Err(refusal) => {
-            say(&mut to, &ServerSays::Refused(refusal)).await?;
+            send_message(&mut to, &ServerMessage::Refused(refusal)).await?;
             Ok((None, to, from))
         }
     }
@@ -109,11 +109,11 @@ impl ServerState {
         self.roles.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Decides whether somebody may come in, and as whom.
+    /// Authenticates a client and assigns its actors.
     fn admit(&self, number: u64, hello: &[u8], connection: &Connection) -> Result<(Role, Vec<String>), Refusal> {
         let hello = Hello::read(hello)?;
         let shown = URL_SAFE_NO_PAD.decode(&hello.secret).unwrap_or_default();
-        // Both are compared, each in the same time whatever it is.
+        // Both secrets are always compared, each in constant time.
         let mut role = None;
         for (of, secret) in &self.secrets {
             if bool::from(secret.as_slice().ct_eq(&shown)) {
@@ -122,7 +122,7 @@ impl ServerState {
         }
         let role = role.ok_or(Refusal::Secret)?;
         let present = &self.shared.counts.present;
-        if present.fetch_add(1, Ordering::Relaxed) >= self.most_clients as u64 {
+        if present.fetch_add(1, Ordering::Relaxed) >= self.max_clients as u64 {
             present.fetch_sub(1, Ordering::Relaxed);
             return Err(Refusal::Full);
         }
@@ -130,7 +130,7 @@ impl ServerState {
         match claimed {
             Ok(lost) => {
                 for connection in lost {
-                    connection.close(REPLACED.into(), b"the actor has joined anew");
+                    connection.close(REPLACED.into(), b"another client has joined as the actor");
                 }
                 Ok((role, hello.actors))
             }
@@ -143,8 +143,8 @@ impl ServerState {
 }
 
 impl ClientConnection {
-    /// Until it leaves, is cut off or breaks a rule.
-    async fn stay(&self, mut to: SendStream, from: RecvStream) -> Result<(), SessionError> {
+    /// Serves the client until it leaves, is disconnected or violates the protocol.
+    async fn serve(&self, mut to: SendStream, from: RecvStream) -> Result<(), SessionError> {
         let manifest = &self.state.manifest;
         let welcome = Welcome {
             role: self.role,
@@ -156,110 +156,114 @@ impl ClientConnection {
         };
         let (note, notes) = mpsc::channel(16);
         let begin = async {
-            say(&mut to, &ServerSays::Welcome(welcome)).await?;
+            send_message(&mut to, &ServerMessage::Welcome(welcome)).await?;
             to.write_all(&manifest.scene).await.map_err(ended)?;
             Ok(to)
         };
         let speak = async {
-            let slow = |_| Err(SessionError::Ended("it does not take the scene".to_owned()));
-            let to = timeout(SCENE_WITHIN, begin).await.unwrap_or_else(slow)?;
-            tell(to, notes).await
+            let slow = |_| Err(SessionError::Ended("the client does not receive the scene".to_owned()));
+            let to = timeout(SCENE_TIMEOUT, begin).await.unwrap_or_else(slow)?;
+            send_notes(to, notes).await
         };
         tokio::select! {
             ended = speak => ended,
-            ended = self.hear_control(from, &note) => ended,
-            ended = self.hear_datagrams() => ended,
-            ended = self.show() => ended,
+            ended = self.receive_control(from, &note) => ended,
+            ended = self.receive_datagrams() => ended,
+            ended = self.send_frames() => ended,
         }
     }
 
-    /// Commands and keys. One that sends more than it may is read no faster: its own stream fills, and nobody else's.
-    async fn hear_control(&self, mut from: RecvStream, note: &mpsc::Sender<String>) -> Result<(), SessionError> {
-        let mut pace = Pace::new(CONTROL_PER_SEC, Instant::now());
-        while let Some(bytes) = hear(&mut from, MAX_CLIENT_MESSAGE).await? {
-            while let Err(wait) = pace.take(Instant::now()) {
+    /// Receives commands and keys. A client above its rate limit is read no faster: its own stream fills, and no other
+    /// client is affected.
+    async fn receive_control(&self, mut from: RecvStream, note: &mpsc::Sender<String>) -> Result<(), SessionError> {
+        let mut limit = RateLimit::new(CONTROL_PER_SEC, Instant::now());
+        while let Some(bytes) = receive_message(&mut from, MAX_CLIENT_MESSAGE).await? {
+            while let Err(wait) = limit.take(Instant::now()) {
                 tokio::time::sleep(wait).await;
             }
-            self.is_heard()?;
-            let passed = match ClientSays::read(&bytes).map_err(SessionError::Malformed)? {
-                ClientSays::Leave => return Ok(()),
-                ClientSays::Command(command) => {
-                    let suits = permit(self.role, &self.actors, &command).and_then(|()| self.suits(&command));
-                    suits.and_then(|()| self.pass(Order::Command(command)))
+            self.note_alive()?;
+            let queued = match ClientMessage::read(&bytes).map_err(SessionError::Malformed)? {
+                ClientMessage::Leave => return Ok(()),
+                ClientMessage::Command(command) => {
+                    let checked =
+                        permit(self.role, &self.actors, &command).and_then(|()| self.check_against_scene(&command));
+                    checked.and_then(|()| self.forward(ClientRequest::Command(command)))
                 }
-                ClientSays::Press(key) => self.may_press(&key).and_then(|()| self.pass(Order::Press(key))),
+                ClientMessage::Press(key) => {
+                    self.may_press(&key).and_then(|()| self.forward(ClientRequest::Press(key)))
+                }
             };
-            if let Err(problem) = passed {
-                count(&self.state.shared.counts.orders_refused);
-                // One that does not read what it is told is not told more.
+            if let Err(problem) = queued {
+                count(&self.state.shared.counts.requests_refused);
+                // Notes to a client that does not read them are dropped.
                 let _ = note.try_send(problem);
             }
         }
         Ok(())
     }
 
-    /// Signs of life and what actors perform. What is too much is dropped: the next one is newer.
-    async fn hear_datagrams(&self) -> Result<(), SessionError> {
-        let mut pace = Pace::new(DATAGRAMS_PER_SEC, Instant::now());
+    /// Receives keep-alives and performance samples. Those above the rate limit are dropped: the next one is newer.
+    async fn receive_datagrams(&self) -> Result<(), SessionError> {
+        let mut limit = RateLimit::new(DATAGRAMS_PER_SEC, Instant::now());
         loop {
             let bytes = self.connection.read_datagram().await.map_err(ended)?;
-            if pace.take(Instant::now()).is_err() {
-                count(&self.state.shared.counts.orders_dropped);
+            if limit.take(Instant::now()).is_err() {
+                count(&self.state.shared.counts.requests_dropped);
                 continue;
             }
-            self.is_heard()?;
-            let upward = Upward::read(&bytes).map_err(|error| SessionError::Malformed(error.to_string()))?;
-            if let Some(command) = upward.command(&self.actors) {
-                // One that is refused, or too many: the next one is newer.
-                let _ = self.suits(&command).and_then(|()| self.pass(Order::Command(command)));
+            self.note_alive()?;
+            let datagram = ClientDatagram::read(&bytes).map_err(|error| SessionError::Malformed(error.to_string()))?;
+            if let Some(command) = datagram.command(&self.actors) {
+                // A refused or dropped sample is not reported: the next one is newer.
+                let _ = self.check_against_scene(&command).and_then(|()| self.forward(ClientRequest::Command(command)));
             }
         }
     }
 
-    fn is_heard(&self) -> Result<(), SessionError> {
-        if self.state.roles().hear(self.number, &self.actors, Instant::now()) {
+    fn note_alive(&self) -> Result<(), SessionError> {
+        if self.state.roles().keep_alive(self.number, &self.actors, Instant::now()) {
             Ok(())
         } else {
-            Err(SessionError::Ended("the actor has joined anew".to_owned()))
+            Err(SessionError::Ended("another client has joined as the actor".to_owned()))
         }
     }
 
-    /// Whether a command names what the scene has, with numbers that are sound.
-    fn suits(&self, command: &Command) -> Result<(), String> {
+    /// Checks that a command names things of the scene and that its numbers are in range.
+    fn check_against_scene(&self, command: &Command) -> Result<(), String> {
         self.state.manifest.rules.as_ref().map_or(Ok(()), |scene| scene.check_command(command))
     }
 
     fn may_press(&self, key: &str) -> Result<(), String> {
         let bound = self.state.manifest.keys.get(key).ok_or_else(|| {
             let known: Vec<&str> = self.state.manifest.keys.keys().map(String::as_str).collect();
-            format!("the scene has no key `{}`; there are {}", short(key), known.join(", "))
+            format!("the scene has no key `{}`; its keys are {}", short(key), known.join(", "))
         })?;
         bound.iter().try_for_each(|command| permit(self.role, &self.actors, command))
     }
 
-    /// Hands an order to the stage, which takes it before its next step.
-    fn pass(&self, order: Order) -> Result<(), String> {
+    /// Queues a request for the stage, which takes it before its next step.
+    fn forward(&self, request: ClientRequest) -> Result<(), String> {
         let shared = &self.state.shared;
         let arrived_step = shared.step.load(Ordering::Relaxed);
-        match self.state.order.try_send(Placed { order, by: Arc::clone(&self.by), arrived_step }) {
+        match self.state.request.try_send(QueuedRequest { request, by: Arc::clone(&self.by), arrived_step }) {
             Ok(()) => {
-                count(&shared.counts.orders);
+                count(&shared.counts.requests);
                 Ok(())
             }
             Err(_) => {
-                count(&shared.counts.orders_dropped);
-                Err("the stage has too much to do; send it again".to_owned())
+                count(&shared.counts.requests_dropped);
+                Err("the queue of requests to the stage is full; send it again".to_owned())
             }
         }
     }
 
-    /// Frames. Each has a stream of its own, so that a lost packet holds up one frame and no other. As many are under way as the
-    /// connection can carry at a time; a frame for which there is no room is left out, and the next one is newer.
-    async fn show(&self) -> Result<(), SessionError> {
+    /// Sends frames. Each has a stream of its own, so that a lost packet delays one frame and no other. Frames in
+    /// flight are limited by the congestion window; a frame that does not fit is dropped, and the next one is newer.
+    async fn send_frames(&self) -> Result<(), SessionError> {
         let shared = &self.state.shared;
         let mut frames = self.state.frames.clone();
         frames.mark_changed();
-        let under_way = Arc::new(AtomicU64::new(0));
+        let in_flight = Arc::new(AtomicU64::new(0));
         loop {
             let over = |_| SessionError::Ended("the session is over".to_owned());
             frames.changed().await.map_err(over)?;
@@ -268,37 +272,37 @@ impl ClientConnection {
                 continue;
             }
             let (bytes, room) = (frame.len() as u64, self.connection.stats().path.cwnd);
-            // One frame more than there is room for: a sender that never fills the window is not given a larger one.
-            if under_way.load(Ordering::Relaxed) > room {
+            // One frame more than fits: congestion control does not grow a window that is never filled.
+            if in_flight.load(Ordering::Relaxed) > room {
                 count(&shared.counts.frames_dropped);
                 continue;
             }
-            // A client that takes nothing is waited for here, and holds up nobody else.
-            let Ok(opened) = timeout(STALE, self.connection.open_uni()).await else {
+            // Only this client's task waits here when the client does not receive.
+            let Ok(opened) = timeout(MAX_FRAME_AGE, self.connection.open_uni()).await else {
                 count(&shared.counts.frames_dropped);
                 continue;
             };
             let mut stream = opened.map_err(ended)?;
-            match timeout(STALE, stream.write_all(&frame)).await {
+            match timeout(MAX_FRAME_AGE, stream.write_all(&frame)).await {
                 Ok(written) => written.map_err(ended)?,
                 Err(_) => {
-                    // Dropped as it is it would pass for a whole one.
+                    // Without a reset the truncated frame would look complete.
                     let _ = stream.reset(0u32.into());
                     count(&shared.counts.frames_dropped);
                     continue;
                 }
             }
             let _ = stream.finish();
-            under_way.fetch_add(bytes, Ordering::Relaxed);
-            let (under_way, shared) = (Arc::clone(&under_way), Arc::clone(shared));
+            in_flight.fetch_add(bytes, Ordering::Relaxed);
+            let (in_flight, shared) = (Arc::clone(&in_flight), Arc::clone(shared));
             tokio::spawn(async move {
-                if timeout(STALE, stream.stopped()).await.is_ok() {
+                if timeout(MAX_FRAME_AGE, stream.stopped()).await.is_ok() {
                     count(&shared.counts.frames_sent);
                 } else {
                     let _ = stream.reset(0u32.into());
                     count(&shared.counts.frames_dropped);
                 }
-                under_way.fetch_sub(bytes, Ordering::Relaxed);
+                in_flight.fetch_sub(bytes, Ordering::Relaxed);
             });
         }
     }
@@ -308,11 +312,11 @@ fn ended(error: impl std::fmt::Display) -> SessionError {
     SessionError::Ended(error.to_string())
 }
 
-/// Passes words on to the client.
-async fn tell(mut to: SendStream, mut notes: mpsc::Receiver<String>) -> Result<(), SessionError> {
+/// Sends the reasons of rejected requests to the client.
+async fn send_notes(mut to: SendStream, mut notes: mpsc::Receiver<String>) -> Result<(), SessionError> {
     while let Some(problem) = notes.recv().await {
-        say(&mut to, &ServerSays::NotPassed(problem)).await?;
+        send_message(&mut to, &ServerMessage::Rejected(problem)).await?;
     }
-    // The other tasks end the stay.
+    // The other tasks end the connection.
     std::future::pending().await
 }

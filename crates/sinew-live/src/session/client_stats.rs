@@ -1,4 +1,4 @@
-//! What a client has received, in numbers.
+//! Statistics of a client's connection.
 
 use super::SessionError;
 use serde::Serialize;
@@ -6,61 +6,62 @@ use sinew_world::Frame;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// What a client has received. Its size does not grow with the session's length.
+/// Statistics of a client's connection. Its size does not grow with the session's length.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ClientStats {
     /// Frames that arrived.
     pub frames: u64,
     /// Of these, those that arrived after a later one.
     pub frames_late: u64,
-    /// Frames whose hash is not what the server said; 0 in a sound session.
+    /// Frames whose hash differs from the one that the server sent; 0 unless a machine or program is faulty.
     pub frames_that_differ: u64,
-    /// Frames that could not be read.
+    /// Frames that could not be decoded.
     pub frames_malformed: u64,
-    /// Bytes of frames.
+    /// Size of all frames \[bytes\].
     pub frame_bytes: u64,
     /// Step of the first frame that arrived.
     pub first_step: Option<u64>,
     /// Step of the newest frame.
     pub last_step: Option<u64>,
-    /// Times that the connection was lost and made again.
+    /// Reconnections after a lost connection.
     pub rejoined: u64,
-    /// Datagrams of performance that did not go out.
+    /// Performance samples that were not sent because the send queue was full.
     pub samples_not_sent: u64,
-    /// The round trip as the connection sees it now \[ms\].
+    /// Current round-trip time of the connection \[ms\].
     pub round_trip_ms: f64,
     /// [`Frame::hash`] of received frames by their step, in hexadecimal: of every step that is a multiple of
     /// [`ClientStats::HASH_STEPS`], the last [`ClientStats::MAX_HASHES`] of them.
     pub hashes: BTreeMap<u64, String>,
-    /// What was sent, with the step of the newest frame then: the last [`ClientStats::MAX_SENT`].
-    pub sent: Vec<SentOrder>,
-    /// What the server did not pass on, with its reason: the last [`ClientStats::MAX_SENT`].
-    pub not_passed: Vec<String>,
+    /// Requests that were sent, with the step of the newest frame at that time: the last [`ClientStats::MAX_SENT`].
+    pub sent: Vec<SentRequest>,
+    /// Reasons for which the server rejected requests: the last [`ClientStats::MAX_SENT`].
+    #[serde(rename = "not_passed")]
+    pub rejected: Vec<String>,
     /// When the newest frame arrived.
     #[serde(skip)]
     arrived: Option<Instant>,
 }
 
-/// Something that a client sent.
+/// A request that a client sent.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SentOrder {
-    /// A key, or the command's word.
+pub struct SentRequest {
+    /// The key, or the command's `do`.
     pub what: String,
-    /// Step of the newest frame that had arrived.
+    /// Step of the newest frame that had arrived by then.
     pub seen_step: u64,
-    /// Time since it had \[ms\].
+    /// Time since that frame arrived \[ms\].
     pub since_ms: f64,
 }
 
 impl ClientStats {
-    /// Every so many steps a hash is kept.
+    /// Physics steps between two kept hashes.
     pub const HASH_STEPS: u64 = 60;
-    /// Hashes that are kept.
+    /// Maximum number of kept hashes.
     pub const MAX_HASHES: usize = 10_000;
-    /// Sent orders that are kept.
+    /// Maximum number of kept sent requests.
     pub const MAX_SENT: usize = 1_000;
 
-    /// Takes a frame down. Returns whether it is newer than all before.
+    /// Counts a frame. Returns whether it is newer than all before.
     pub(super) fn note(&mut self, frame: &Frame, said: u64, bytes: usize) -> bool {
         self.frames += 1;
         self.frame_bytes += bytes as u64;
@@ -81,15 +82,16 @@ impl ClientStats {
     pub(super) fn note_sent(&mut self, what: String) {
         let seen_step = self.last_step.unwrap_or(0);
         let since_ms = self.arrived.map_or(0.0, |arrived| arrived.elapsed().as_secs_f64() * 1e3);
-        push_last(&mut self.sent, SentOrder { what, seen_step, since_ms });
+        push_last(&mut self.sent, SentRequest { what, seen_step, since_ms });
     }
 
-    pub(super) fn note_not_passed(&mut self, problem: String) {
-        push_last(&mut self.not_passed, problem);
+    pub(super) fn note_rejected(&mut self, problem: String) {
+        push_last(&mut self.rejected, problem);
     }
 }
 
-/// Keeps a hash if its step is one whose hashes are kept: of server and clients the same.
+/// Keeps a hash if its step is a multiple of [`ClientStats::HASH_STEPS`]; server and clients keep those of the same
+/// steps.
 pub fn note_hash(hashes: &mut BTreeMap<u64, String>, step: u64, hash: u64) {
     if step.is_multiple_of(ClientStats::HASH_STEPS) {
         hashes.insert(step, format!("{hash:016x}"));
@@ -106,13 +108,13 @@ fn push_last<T>(list: &mut Vec<T>, one: T) {
     list.push(one);
 }
 
-/// How a client stands.
+/// State of a client's connection.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Standing {
-    /// Frames come.
+pub enum ConnectionState {
+    /// Connected; frames arrive.
     Connected,
-    /// The connection was lost; another is being made.
+    /// The connection was lost; the client reconnects.
     Rejoining,
-    /// It is over.
+    /// The session has ended for this client, for this reason.
     Ended(SessionError),
 }

@@ -1,77 +1,77 @@
-//! What goes wrong between machines.
+//! Errors of a session.
 
-/// A session that does not begin, or ends.
+/// Why a session did not begin, or ended.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SessionError {
-    /// A token that is none.
-    #[error("this is no token: {0}; copy the whole line that `sinew serve` printed")]
+    /// An invalid token.
+    #[error("the token is invalid: {0}; copy the whole line that `sinew serve` printed")]
     Token(String),
-    /// Nobody answers.
+    /// The server does not answer.
     #[error(
-        "{place}: nobody answers ({problem}); check that `sinew serve` runs there, that --bind lets others in, and the firewall's UDP port"
+        "{address}: the server does not answer ({problem}); check that `sinew serve` runs there, that --bind lets others in, and the firewall's UDP port"
     )]
     Unreachable {
-        /// Host and port.
-        place: String,
-        /// What the network said.
+        /// Host and port of the server.
+        address: String,
+        /// The network's error.
         problem: String,
     },
-    /// The certificate is not the one of the token.
-    #[error("{place}: this is not the server that the token is for; ask for its new token")]
-    Impostor {
-        /// Host and port.
-        place: String,
+    /// The server's certificate is not the one that the token pins.
+    #[error("{address}: the certificate is not the one of the token; ask for the server's present token")]
+    WrongCertificate {
+        /// Host and port of the server.
+        address: String,
     },
-    /// The server said no.
+    /// The server refused the connection.
     #[error("the server refuses: {0}")]
     Refused(Refusal),
-    /// What arrived cannot be understood.
+    /// A message that cannot be decoded.
     #[error("{0}")]
     Malformed(String),
     /// The connection ended.
     #[error("the connection ended: {0}")]
     Ended(String),
-    /// A socket, a certificate, a thread.
+    /// A local failure: a socket, a certificate, a thread.
     #[error("{0}")]
-    Machine(String),
+    Local(String),
 }
 
-/// Why a server says no.
+/// Why a server refuses a connection.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[serde(tag = "why", rename_all = "snake_case")]
 pub enum Refusal {
-    /// Another protocol.
+    /// Another version of the protocol.
     #[error(
-        "it speaks version {server} of the protocol, this program version {client}; use the same Sinew on both sides"
+        "it uses version {server} of the protocol, this program version {client}; use the same Sinew on both sides"
     )]
     Version {
-        /// The server's.
+        /// The server's version.
         server: u32,
-        /// The client's.
+        /// The client's version.
         client: u32,
     },
-    /// A wrong secret.
+    /// An invalid secret.
     #[error("the token is not valid here; ask for the server's present one")]
     Secret,
-    /// No such actor.
-    #[error("it has no actor `{actor}`; there are {known}")]
+    /// An actor that the scene does not have.
+    #[error("it has no actor `{actor}`; its actors are {known}")]
     NoActor {
-        /// What was asked for.
+        /// The requested actor.
         actor: String,
-        /// Those of the scene.
+        /// The actors of the scene.
         known: String,
     },
-    /// Somebody else plays it.
-    #[error("`{actor}` is played by somebody else; choose another, or wait until they leave")]
+    /// Another client plays the actor.
+    #[error("`{actor}` is played by another client; choose another actor, or wait until that client leaves")]
     Taken {
         /// The actor.
         actor: String,
     },
-    /// No place left.
-    #[error("it is full; ask its operator for a place")]
+    /// The maximum number of clients is connected.
+    #[error("it has its maximum number of clients; try again later, or ask its operator to raise it")]
     Full,
-    /// The first message was none.
-    #[error("the greeting was not understood: {problem}")]
+    /// The hello message is invalid.
+    #[error("the hello message is invalid: {problem}")]
     Greeting {
         /// What is wrong with it.
         problem: String,

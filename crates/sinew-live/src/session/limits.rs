@@ -1,81 +1,83 @@
-//! What one side takes from the other at most. A peer that goes beyond is cut off; nobody else notices.
+//! Maximum sizes, rates and times that one side accepts from the other. A peer that exceeds them is disconnected; no
+//! other peer is affected.
 
 use std::time::Duration;
 
-/// Version of the protocol. Both sides must speak the same.
+/// Version of the protocol. Both sides must use the same.
 pub const PROTOCOL: u32 = 1;
 
-/// The UDP port that a server binds when none is asked for.
+/// Default UDP port of a server.
 pub const DEFAULT_PORT: u16 = 47110;
 
-/// Longest control message from a client \[bytes\]: a command with its texts.
+/// Maximum size of a control message from a client \[bytes\]: a command with its texts.
 pub const MAX_CLIENT_MESSAGE: usize = 64 << 10;
 
-/// Longest control message from a server \[bytes\].
+/// Maximum size of a control message from a server \[bytes\].
 pub const MAX_SERVER_MESSAGE: usize = 256 << 10;
 
-/// Longest message before a client is known to have the secret \[bytes\].
+/// Maximum size of the hello message, before the client is authenticated \[bytes\].
 pub const MAX_HELLO: usize = 4 << 10;
 
-/// Largest scene with all its files, as a take holds them \[bytes\].
+/// Maximum size of a scene with all its files, as a take holds them \[bytes\].
 pub const MAX_SCENE: usize = 64 << 20;
 
-/// Longest encoded frame \[bytes\]: some 8000 bodies with their contacts.
+/// Maximum size of an encoded frame \[bytes\]: some 8000 bodies with their contacts.
 pub const MAX_FRAME: usize = 2 << 20;
 
-/// Characters in an encoded frame.
+/// Maximum number of characters in an encoded frame.
 pub const MAX_CHARACTERS: usize = 1 << 10;
 
-/// Props in an encoded frame.
+/// Maximum number of props in an encoded frame.
 pub const MAX_PROPS: usize = 1 << 14;
 
-/// Contacts in an encoded frame; of more only the first are sent.
+/// Maximum number of contacts in an encoded frame; of more only the first are sent.
 pub const MAX_CONTACTS: usize = 1 << 12;
 
-/// Corners of one support polygon in an encoded frame.
+/// Maximum number of corners of one support polygon in an encoded frame.
 pub const MAX_CORNERS: usize = 255;
 
-/// Actors that one client may play.
-pub const MAX_ACTORS_OF_ONE: usize = 8;
+/// Maximum number of actors that one client may play.
+pub const MAX_ACTORS_PER_CLIENT: usize = 8;
 
-/// Length of an actor's or a key's name \[bytes\].
+/// Maximum length of an actor's or a key's name \[bytes\].
 pub const MAX_NAME: usize = 200;
 
-/// Commands of all clients that wait for a step; more are dropped and counted.
-pub const MAX_ORDERS: usize = 1 << 10;
+/// Maximum number of requests of all clients that wait for a step; more are dropped and counted.
+pub const MAX_QUEUED_REQUESTS: usize = 1 << 10;
 
-/// Commands of all clients that one step obeys; the rest waits for the next.
-pub const MAX_ORDERS_OF_STEP: usize = 256;
+/// Maximum number of requests of all clients that are applied before one step; the rest wait for the next.
+pub const MAX_REQUESTS_PER_STEP: usize = 256;
 
-/// Frames under way to one client.
-pub const MAX_FRAMES_UNDER_WAY: u32 = 128;
+/// Maximum number of frames in flight to one client.
+pub const MAX_FRAMES_IN_FLIGHT: u32 = 128;
 
-/// A frame older than this is given up.
-pub const STALE: Duration = Duration::from_millis(1000);
+/// Maximum age of a frame in flight; an older one is dropped.
+pub const MAX_FRAME_AGE: Duration = Duration::from_millis(1000);
 
-/// Time in which a connection must be up and the client must have shown its secret.
-pub const HELLO_WITHIN: Duration = Duration::from_secs(5);
+/// Time within which a client must connect and authenticate.
+pub const HELLO_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// Time in which a client must have taken the scene.
-pub const SCENE_WITHIN: Duration = Duration::from_secs(120);
+/// Time within which a client must have received the scene.
+pub const SCENE_TIMEOUT: Duration = Duration::from_secs(120);
 
-/// A connection from which nothing comes for so long has ended.
-pub const IDLE: Duration = Duration::from_secs(8);
+/// A connection that receives nothing for this long has ended.
+pub const IDLE_TIMEOUT: Duration = Duration::from_secs(8);
 
-/// Time between two signs of life of a client.
-pub const SIGN_OF_LIFE: Duration = Duration::from_millis(200);
+/// Time between two keep-alives of a client.
+pub const KEEP_ALIVE_INTERVAL: Duration = Duration::from_millis(200);
 
-/// An actor whose client gave no sign of life for so long is given to the next who asks for it.
-pub const QUIET: Duration = Duration::from_millis(1200);
+/// A client without a keep-alive for this long loses its actor to the next client that asks for it.
+pub const ACTOR_TIMEOUT: Duration = Duration::from_millis(1200);
 
-/// Control messages a second that a client may send in the long run; more wait, at the client's side.
+/// Maximum rate of control messages of a client \[1/s\], with bursts of one second's worth; more wait at the client's
+/// side.
 pub const CONTROL_PER_SEC: f64 = 60.0;
 
-/// Datagrams a second that a client may send in the long run; more are dropped.
-pub const DATAGRAMS_PER_SEC: f64 = 250.0 * MAX_ACTORS_OF_ONE as f64;
+/// Maximum rate of datagrams of a client \[1/s\], with bursts of one second's worth; more are dropped.
+pub const DATAGRAMS_PER_SEC: f64 = 250.0 * MAX_ACTORS_PER_CLIENT as f64;
 
-/// Connections that have not shown the secret yet, over all addresses.
-pub const MAX_STRANGERS: usize = 64;
+/// Maximum number of connections that are not yet authenticated, over all addresses.
+pub const MAX_PENDING_CONNECTIONS: usize = 64;
 
-/// Connections that have not shown the secret yet, of one address.
-pub const MAX_STRANGERS_OF_ONE: usize = 16;
+/// Maximum number of connections from one address that are not yet authenticated.
+pub const MAX_PENDING_PER_ADDRESS: usize = 16;

@@ -1,6 +1,6 @@
-//! What the two sides say to each other on the control stream, as JSON behind its length (u32, little end first).
+//! Messages on the control stream: JSON behind its length (u32, little-endian).
 
-use super::limits::{MAX_ACTORS_OF_ONE, MAX_NAME};
+use super::limits::{MAX_ACTORS_PER_CLIENT, MAX_NAME};
 use super::{Refusal, Role};
 use serde::{Deserialize, Serialize};
 use sinew_control::Command;
@@ -13,11 +13,11 @@ pub struct Hello {
     pub protocol: u32,
     /// The token's secret, URL-safe base64.
     pub secret: String,
-    /// Actors that it wants to play; none to watch only.
+    /// Actors that it wants to play; empty to watch only.
     pub actors: Vec<String>,
 }
 
-/// What is read of a greeting of any version.
+/// The part of a hello message that every version has.
 #[derive(Deserialize)]
 pub(super) struct AnyHello {
     pub protocol: u32,
@@ -26,28 +26,29 @@ pub(super) struct AnyHello {
 /// A message of a client that has joined.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum ClientSays {
+pub enum ClientMessage {
     /// A command, to be applied in the next step.
     Command(Command),
     /// A key of the scene is pressed.
     Press(String),
-    /// It leaves.
+    /// The client leaves.
     Leave,
 }
 
 /// A message of the server.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum ServerSays {
-    /// The client is in. The scene follows, as so many bytes of a take without commands.
+pub enum ServerMessage {
+    /// The client has joined. The scene follows: [`Welcome::scene_bytes`] bytes of a take without commands.
     Welcome(Welcome),
-    /// The client is not in.
+    /// The client is refused.
     Refused(Refusal),
-    /// Something that the client sent was not passed on.
-    NotPassed(String),
+    /// A request of the client was rejected, for this reason.
+    #[serde(rename = "not_passed")]
+    Rejected(String),
 }
 
-/// What a client is told first.
+/// The server's first message to a client that has joined.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Welcome {
@@ -66,50 +67,50 @@ pub struct Welcome {
 }
 
 impl Hello {
-    /// Reads a greeting.
+    /// Decodes a hello message. Any bytes are safe to pass.
     ///
     /// # Errors
-    /// Why it is not to be answered with a welcome.
+    /// Invalid bytes, or another version of the protocol.
     pub fn read(bytes: &[u8]) -> Result<Hello, Refusal> {
         let greeting = |problem: String| Refusal::Greeting { problem };
-        // Another version may say more than this one knows.
+        // Another version may have more fields than this one knows.
         let any: AnyHello = serde_json::from_slice(bytes).map_err(|error| greeting(short(&error.to_string())))?;
         if any.protocol != super::PROTOCOL {
             return Err(Refusal::Version { server: super::PROTOCOL, client: any.protocol });
         }
         let hello: Hello = serde_json::from_slice(bytes).map_err(|error| greeting(short(&error.to_string())))?;
-        if hello.actors.len() > MAX_ACTORS_OF_ONE || hello.actors.iter().any(|actor| actor.len() > MAX_NAME) {
-            return Err(greeting(format!("at most {MAX_ACTORS_OF_ONE} actors with short names are expected")));
+        if hello.actors.len() > MAX_ACTORS_PER_CLIENT || hello.actors.iter().any(|actor| actor.len() > MAX_NAME) {
+            return Err(greeting(format!("at most {MAX_ACTORS_PER_CLIENT} actors with short names are expected")));
         }
         Ok(hello)
     }
 }
 
-impl ClientSays {
-    /// Reads a message of a client. Any bytes may come.
+impl ClientMessage {
+    /// Decodes a message of a client. Any bytes are safe to pass.
     ///
     /// # Errors
-    /// What is wrong with it.
-    pub fn read(bytes: &[u8]) -> Result<ClientSays, String> {
-        let says: ClientSays = serde_json::from_slice(bytes).map_err(|error| short(&error.to_string()))?;
+    /// What is invalid.
+    pub fn read(bytes: &[u8]) -> Result<ClientMessage, String> {
+        let says: ClientMessage = serde_json::from_slice(bytes).map_err(|error| short(&error.to_string()))?;
         match &says {
-            ClientSays::Press(key) if key.len() > MAX_NAME => Err("a key has a shorter name".to_owned()),
+            ClientMessage::Press(key) if key.len() > MAX_NAME => Err("the name of a key is too long".to_owned()),
             _ => Ok(says),
         }
     }
 }
 
-impl ServerSays {
-    /// Reads a message of a server. Any bytes may come.
+impl ServerMessage {
+    /// Decodes a message of a server. Any bytes are safe to pass.
     ///
     /// # Errors
-    /// What is wrong with it.
-    pub fn read(bytes: &[u8]) -> Result<ServerSays, String> {
+    /// What is invalid.
+    pub fn read(bytes: &[u8]) -> Result<ServerMessage, String> {
         serde_json::from_slice(bytes).map_err(|error| short(&error.to_string()))
     }
 }
 
-/// Words of a stranger, made fit to be shown.
+/// Text from a peer, sanitized for display: at most 200 characters, no control characters.
 pub(super) fn short(text: &str) -> String {
     text.chars().take(200).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

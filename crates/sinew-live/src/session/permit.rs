@@ -1,12 +1,12 @@
-//! What a client may command.
+//! Authorization: what a client may command.
 
 use super::Role;
 use sinew_control::{Action, Command};
 
-/// Whether somebody with this role, who plays these actors, may give a command.
+/// Checks whether a client with this role and these actors may send a command.
 ///
-/// An actor commands the characters that it plays and nothing else. Nobody sends program text, or tells what happened to a
-/// script: those are the server's own.
+/// An actor commands the characters that it plays and nothing else. No client sends program text or reports what
+/// happened to a script: only the server does.
 ///
 /// ```
 /// use sinew_live::session::{Role, permit};
@@ -18,12 +18,12 @@ use sinew_control::{Action, Command};
 /// ```
 ///
 /// # Errors
-/// Why not.
+/// Why the command is not allowed.
 pub fn permit(role: Role, actors: &[String], command: &Command) -> Result<(), String> {
     match &command.action {
         Action::ScriptKilled { .. } => return Err("only the server stops scripts".to_owned()),
         Action::Reload { text: Some(_), .. } => {
-            return Err("no text of a controller is taken from the network".to_owned());
+            return Err("text of a controller is not accepted from the network".to_owned());
         }
         _ => {}
     }
@@ -31,14 +31,16 @@ pub fn permit(role: Role, actors: &[String], command: &Command) -> Result<(), St
         (Role::Operator, _) => Ok(()),
         (Role::Actor, Some(character)) if actors.contains(character) => match command.action {
             Action::Reload { .. } | Action::Controller { .. } => {
-                Err("controllers are the operator's; join with the operator's token".to_owned())
+                Err("only the operator changes controllers; join with the operator's token".to_owned())
             }
             _ => Ok(()),
         },
         (Role::Actor, Some(character)) => Err(format!(
-            "`{}` is not yours; join as it, or with the operator's token",
+            "this client does not play `{}`; join as it, or with the operator's token",
             super::message::short(character)
         )),
-        (Role::Actor, None) => Err("this is for the stage and its props; join with the operator's token".to_owned()),
+        (Role::Actor, None) => {
+            Err("only the operator commands the stage and its props; join with the operator's token".to_owned())
+        }
     }
 }

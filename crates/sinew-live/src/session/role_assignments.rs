@@ -1,21 +1,21 @@
-//! Who plays whom.
+//! Which client plays which actor.
 
 use super::Refusal;
-use super::limits::QUIET;
+use super::limits::ACTOR_TIMEOUT;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// Actors and the connections that play them. `C` is what is needed to end a connection.
+/// Actors and the clients that play them. `C` is a handle with which a connection can be closed.
 #[derive(Debug)]
 pub(super) struct RoleAssignments<C> {
     /// Every actor of the scene.
-    roles: BTreeMap<String, Option<Seat<C>>>,
+    roles: BTreeMap<String, Option<Assignment<C>>>,
 }
 
 #[derive(Debug)]
-struct Seat<C> {
+struct Assignment<C> {
     client: u64,
-    heard: Instant,
+    last_alive: Instant,
     connection: C,
 }
 
@@ -24,8 +24,8 @@ impl<C: Clone> RoleAssignments<C> {
         RoleAssignments { roles: actors.iter().map(|actor| (actor.clone(), None)).collect() }
     }
 
-    /// Gives actors to a client: all of them, or none and a reason. Returns the connections that lost theirs because nothing was
-    /// heard of them.
+    /// Assigns actors to a client: all of them, or none and a reason. Returns the connections that lost an actor
+    /// because they sent no keep-alive within [`ACTOR_TIMEOUT`].
     pub(super) fn claim(
         &mut self,
         client: u64,
@@ -40,7 +40,10 @@ impl<C: Clone> RoleAssignments<C> {
                     let actor = super::message::short(actor);
                     return Err(Refusal::NoActor { actor, known: known.join(", ") });
                 }
-                Some(Some(seat)) if seat.client != client && now.saturating_duration_since(seat.heard) < QUIET => {
+                Some(Some(assignment))
+                    if assignment.client != client
+                        && now.saturating_duration_since(assignment.last_alive) < ACTOR_TIMEOUT =>
+                {
                     return Err(Refusal::Taken { actor: actor.clone() });
                 }
                 Some(_) => {}
@@ -48,29 +51,29 @@ impl<C: Clone> RoleAssignments<C> {
         }
         let mut lost = Vec::new();
         for actor in actors {
-            let seat = Seat { client, heard: now, connection: connection.clone() };
-            let before = self.roles.insert(actor.clone(), Some(seat)).flatten();
+            let assignment = Assignment { client, last_alive: now, connection: connection.clone() };
+            let before = self.roles.insert(actor.clone(), Some(assignment)).flatten();
             lost.extend(before.filter(|before| before.client != client).map(|before| before.connection));
         }
         Ok(lost)
     }
 
-    /// A client gave a sign of life. False when it has lost its actors to somebody else.
-    pub(super) fn hear(&mut self, client: u64, actors: &[String], now: Instant) -> bool {
+    /// Notes a keep-alive of a client. False when it has lost its actors to another client.
+    pub(super) fn keep_alive(&mut self, client: u64, actors: &[String], now: Instant) -> bool {
         actors.iter().all(|actor| match self.roles.get_mut(actor) {
-            Some(Some(seat)) if seat.client == client => {
-                seat.heard = now;
+            Some(Some(assignment)) if assignment.client == client => {
+                assignment.last_alive = now;
                 true
             }
             _ => false,
         })
     }
 
-    /// A client has left.
+    /// Frees the actors of a client that has left.
     pub(super) fn leave(&mut self, client: u64) {
-        for seat in self.roles.values_mut() {
-            if seat.as_ref().is_some_and(|seat| seat.client == client) {
-                *seat = None;
+        for assignment in self.roles.values_mut() {
+            if assignment.as_ref().is_some_and(|assignment| assignment.client == client) {
+                *assignment = None;
             }
         }
     }
@@ -89,12 +92,12 @@ mod tests {
         assert_eq!(roles.claim(1, &red, &"first", now), Ok(vec![]));
         let soon = now + Duration::from_millis(500);
         assert!(matches!(roles.claim(2, &red, &"second", soon), Err(Refusal::Taken { .. })));
-        assert_eq!(roles.claim(2, &red, &"second", now + QUIET), Ok(vec!["first"]));
-        assert!(!roles.hear(1, &red, now + QUIET), "the first has lost it");
+        assert_eq!(roles.claim(2, &red, &"second", now + ACTOR_TIMEOUT), Ok(vec!["first"]));
+        assert!(!roles.keep_alive(1, &red, now + ACTOR_TIMEOUT), "the first has lost it");
         roles.leave(1);
-        assert!(roles.hear(2, &red, now + QUIET), "the first takes nothing away when it ends");
+        assert!(roles.keep_alive(2, &red, now + ACTOR_TIMEOUT), "the first takes nothing away when it ends");
         roles.leave(2);
-        assert_eq!(roles.claim(3, &red, &"third", now + QUIET), Ok(vec![]));
+        assert_eq!(roles.claim(3, &red, &"third", now + ACTOR_TIMEOUT), Ok(vec![]));
     }
 
     #[test]

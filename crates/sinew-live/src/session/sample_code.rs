@@ -1,4 +1,4 @@
-//! A performer's sample as bytes, small enough for one packet; every number with all its bits.
+//! Encoding of a performer's sample, small enough for one packet; every number keeps all its bits.
 
 use super::wire::{Malformed, Reader};
 use sinew_control::perform::{BodyProportions, PerformerSample, SampleStatus};
@@ -34,7 +34,7 @@ pub(super) fn decode_sample(from: &mut Reader) -> Result<PerformerSample, Malfor
         0 => SampleStatus::Tracked,
         4 => SampleStatus::Untracked,
         8 => SampleStatus::NonFinite,
-        _ => return Err(Malformed("there is no such status of a sample")),
+        _ => return Err(Malformed("the status of a sample is unknown")),
     };
     let time_secs = from.f64()?;
     let number = if kind & HAS_NUMBER != 0 { Some(from.u64()?) } else { None };

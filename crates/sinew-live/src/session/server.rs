@@ -2,9 +2,11 @@
 
 use super::certificate::server_side;
 use super::client_connection::{self, ServerState};
-use super::limits::{DEFAULT_PORT, HELLO_WITHIN, MAX_ORDERS, MAX_STRANGERS, MAX_STRANGERS_OF_ONE};
+use super::limits::{
+    DEFAULT_PORT, HELLO_TIMEOUT, MAX_PENDING_CONNECTIONS, MAX_PENDING_PER_ADDRESS, MAX_QUEUED_REQUESTS,
+};
 use super::role_assignments::RoleAssignments;
-use super::stage_queue::{Placed, ServerCounts, Shared, StageQueue, count};
+use super::stage_queue::{QueuedRequest, ServerCounts, Shared, StageQueue, count};
 use super::{Role, SessionError, Token};
 use ring::rand::{SecureRandom, SystemRandom};
 use sinew_control::Command;
@@ -15,15 +17,15 @@ use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
 use tokio::sync::watch;
 
-/// Where and for whom a server opens.
+/// Settings of a server, fixed when it is opened.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServerSettings {
-    /// The address that it binds. Loopback unless more is asked for.
+    /// The address that it binds. Default: loopback, port [`DEFAULT_PORT`].
     pub bind: SocketAddr,
-    /// What others call this machine, for the token; the bound address when left out.
+    /// Host name of this machine as others know it, for the token. Default: the bound address.
     pub name: Option<String>,
-    /// Clients that may be in at a time.
-    pub most_clients: usize,
+    /// Maximum number of connected clients. Default: 32.
+    pub max_clients: usize,
 }
 
 impl Default for ServerSettings {
@@ -31,12 +33,12 @@ impl Default for ServerSettings {
         ServerSettings {
             bind: SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), DEFAULT_PORT),
             name: None,
-            most_clients: 32,
+            max_clients: 32,
         }
     }
 }
 
-/// What a server tells those who join, and needs to know to let them.
+/// What a server sends to clients that join, and checks their requests against.
 #[derive(Clone, Debug, Default)]
 pub struct SceneManifest {
     /// The scene with all its files: a take without commands.
@@ -49,7 +51,7 @@ pub struct SceneManifest {
     pub physics_hz: u32,
     /// Its seed.
     pub seed: u64,
-    /// The scene, to which commands are held before they are passed on.
+    /// The scene against which commands are checked before they are queued.
     pub rules: Option<Arc<Scene>>,
 }
 
@@ -69,7 +71,7 @@ impl Server {
     /// # Errors
     /// An address that cannot be bound, or that no token can name.
     pub fn open(settings: &ServerSettings, manifest: SceneManifest) -> Result<(Server, StageQueue), SessionError> {
-        let machine = |error: std::io::Error| SessionError::Machine(format!("{}: {error}", settings.bind));
+        let machine = |error: std::io::Error| SessionError::Local(format!("{}: {error}", settings.bind));
         let (config, fingerprint) = server_side()?;
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(1)
@@ -85,27 +87,27 @@ impl Server {
         if settings.name.is_none() && address.ip().is_unspecified() {
             let problem = "every address of this machine is bound, so the token cannot name one; add --name HOST, as others \
                            call this machine, or bind one address";
-            return Err(SessionError::Machine(format!("{address}: {problem}")));
+            return Err(SessionError::Local(format!("{address}: {problem}")));
         }
         let host = settings.name.clone().unwrap_or_else(|| address.ip().to_string());
         let secrets = (new_secret()?, new_secret()?);
         let token = |role, secret| Token { role, host: host.clone(), port: address.port(), fingerprint, secret };
         let (actor, operator) = (token(Role::Actor, secrets.0), token(Role::Operator, secrets.1));
         let shared = Arc::new(Shared::default());
-        let (order, orders) = std::sync::mpsc::sync_channel::<Placed>(MAX_ORDERS);
+        let (request, requests) = std::sync::mpsc::sync_channel::<QueuedRequest>(MAX_QUEUED_REQUESTS);
         let (frames, frames_out) = watch::channel(Arc::default());
         let state = Arc::new(ServerState {
             roles: Mutex::new(RoleAssignments::new(&manifest.actors)),
             manifest,
             secrets: [(Role::Actor, secrets.0), (Role::Operator, secrets.1)],
-            order,
+            request,
             frames: frames_out,
             shared: Arc::clone(&shared),
-            most_clients: settings.most_clients,
+            max_clients: settings.max_clients,
         });
         runtime.spawn(accept(endpoint.clone(), state));
         let server = Server { address, actor, operator, shared: Arc::clone(&shared), endpoint, runtime: Some(runtime) };
-        Ok((server, StageQueue { orders, frames, shared, buffers: Vec::new() }))
+        Ok((server, StageQueue { requests, frames, shared, buffers: Vec::new() }))
     }
 
     /// The address that it is bound to.
@@ -113,7 +115,7 @@ impl Server {
         self.address
     }
 
-    /// The way in for one role.
+    /// The token for one role.
     pub fn token(&self, role: Role) -> &Token {
         match role {
             Role::Actor => &self.actor,
@@ -121,12 +123,12 @@ impl Server {
         }
     }
 
-    /// What came of all that arrived.
+    /// Statistics of its connections, requests and frames.
     pub fn counts(&self) -> ServerCounts {
         self.shared.counts.now()
     }
 
-    /// Lets an interrupt from the keyboard ask the stage to stop; a second one ends the program as ever.
+    /// Lets an interrupt from the keyboard (Ctrl-C) ask the stage to stop; a second one ends the program at once.
     pub fn stop_on_interrupt(&self) {
         let shared = Arc::clone(&self.shared);
         if let Some(runtime) = &self.runtime {
@@ -145,68 +147,70 @@ impl Drop for Server {
     fn drop(&mut self) {
         self.endpoint.close(client_connection::CLOSED.into(), b"the session is over");
         if let Some(runtime) = self.runtime.take() {
-            // Everybody is told, and nobody is waited for long.
-            let told = async { tokio::time::timeout(super::limits::SIGN_OF_LIFE, self.endpoint.wait_idle()).await };
+            // All clients are notified; the wait for their acknowledgement is short.
+            let told =
+                async { tokio::time::timeout(super::limits::KEEP_ALIVE_INTERVAL, self.endpoint.wait_idle()).await };
             let _ = runtime.block_on(told);
             runtime.shutdown_background();
         }
     }
 }
 
-/// Lets connections in: strangers are few at a time, over all and from one address.
+/// Accepts connections. The number of those that are not authenticated is limited, in total and for each address.
 async fn accept(endpoint: quinn::Endpoint, state: Arc<ServerState>) {
-    let strangers: Arc<Mutex<BTreeMap<IpAddr, usize>>> = Arc::default();
+    let pending: Arc<Mutex<BTreeMap<IpAddr, usize>>> = Arc::default();
     let mut client = 0;
     while let Some(incoming) = endpoint.accept().await {
         let from = incoming.remote_address().ip();
-        if !incoming.remote_address_validated() && incoming.may_retry() && are_many(&strangers) {
-            // Whoever writes under false addresses never gets the answer, and so takes no place.
+        if !incoming.remote_address_validated() && incoming.may_retry() && is_crowded(&pending) {
+            // Address validation: a sender with a spoofed address never receives the retry packet, and so takes no
+            // slot.
             let _ = incoming.retry();
             continue;
         }
-        let pass = {
-            let mut known = strangers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let slot = {
+            let mut known = pending.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
             let all: usize = known.values().sum();
             let here = known.entry(from).or_default();
-            if *here >= MAX_STRANGERS_OF_ONE || all >= MAX_STRANGERS {
+            if *here >= MAX_PENDING_PER_ADDRESS || all >= MAX_PENDING_CONNECTIONS {
                 None
             } else {
                 *here += 1;
-                Some(PendingConnection { from, strangers: Arc::clone(&strangers) })
+                Some(PendingConnection { from, pending: Arc::clone(&pending) })
             }
         };
-        let Some(pass) = pass else {
-            count(&state.shared.counts.strangers_refused);
+        let Some(slot) = slot else {
+            count(&state.shared.counts.connections_refused);
             incoming.refuse();
             continue;
         };
         client += 1;
         let state = Arc::clone(&state);
         tokio::spawn(async move {
-            let connection = match tokio::time::timeout(HELLO_WITHIN, async { incoming.accept()?.await }).await {
+            let connection = match tokio::time::timeout(HELLO_TIMEOUT, async { incoming.accept()?.await }).await {
                 Ok(Ok(connection)) => connection,
-                _ => return count(&state.shared.counts.strangers_refused),
+                _ => return count(&state.shared.counts.connections_refused),
             };
-            client_connection::receive(state, client, connection, pass).await;
+            client_connection::receive(state, client, connection, slot).await;
         });
     }
 }
 
-/// Whether so many strangers are here that each has to show that it is where it says.
-fn are_many(strangers: &Mutex<BTreeMap<IpAddr, usize>>) -> bool {
-    let known = strangers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    known.values().sum::<usize>() >= MAX_STRANGERS_OF_ONE / 2
+/// Whether so many connections are pending that new ones must validate their address.
+fn is_crowded(pending: &Mutex<BTreeMap<IpAddr, usize>>) -> bool {
+    let known = pending.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    known.values().sum::<usize>() >= MAX_PENDING_PER_ADDRESS / 2
 }
 
-/// A connection that has not shown the secret yet. It is counted until it is dropped.
+/// A connection that is not yet authenticated. It is counted until it is dropped.
 pub(super) struct PendingConnection {
     from: IpAddr,
-    strangers: Arc<Mutex<BTreeMap<IpAddr, usize>>>,
+    pending: Arc<Mutex<BTreeMap<IpAddr, usize>>>,
 }
 
 impl Drop for PendingConnection {
     fn drop(&mut self) {
-        let mut known = self.strangers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut known = self.pending.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(here) = known.get_mut(&self.from) {
             *here -= 1;
             if *here == 0 {
@@ -218,7 +222,7 @@ impl Drop for PendingConnection {
 
 fn new_secret() -> Result<[u8; 32], SessionError> {
     let mut secret = [0; 32];
-    let failed = |_| SessionError::Machine("this machine gives no random numbers".to_owned());
+    let failed = |_| SessionError::Local("the operating system's random generator failed".to_owned());
     SystemRandom::new().fill(&mut secret).map_err(failed)?;
     Ok(secret)
 }

@@ -2,7 +2,7 @@
 
 use super::limits::MAX_SCENE;
 use super::server::SceneManifest;
-use super::stage_queue::{Order, Placed, StageQueue};
+use super::stage_queue::{ClientRequest, QueuedRequest, StageQueue};
 use super::{SessionError, note_hash};
 use sinew_control::{Action, Command};
 use sinew_stage::take::{Take, TakeFile};
@@ -11,21 +11,20 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 impl SceneManifest {
-    /// What has to be told of a scene.
+    /// The manifest of a scene.
     ///
     /// # Errors
-    /// A scene whose files are too large to be sent.
+    /// A scene whose files exceed [`MAX_SCENE`].
     pub fn of(scene: &Scene) -> Result<SceneManifest, SessionError> {
         let mut take = Take::of(scene);
-        // A take may leave large files to the disk; here there is none on the other side.
+        // A take may refer to large files on the disk; the client does not have them.
         for (path, held) in scene.files() {
             take.files.insert(path.clone(), TakeFile { hash: held.hash, bytes: Some(Arc::clone(&held.bytes)) });
         }
-        let bytes = take.to_bytes().map_err(|error| SessionError::Machine(error.to_string()))?;
+        let bytes = take.to_bytes().map_err(|error| SessionError::Local(error.to_string()))?;
         if bytes.len() > MAX_SCENE {
-            let problem =
-                format!("the scene and its files have {} bytes, of {MAX_SCENE} that can be sent", bytes.len());
-            return Err(SessionError::Machine(format!("{problem}; use shorter clips")));
+            let problem = format!("the scene and its files have {} bytes; the maximum is {MAX_SCENE}", bytes.len());
+            return Err(SessionError::Local(format!("{problem}; use shorter clips")));
         }
         let mut keys: BTreeMap<String, Vec<Command>> = BTreeMap::new();
         for binding in &scene.keys {
@@ -42,7 +41,8 @@ impl SceneManifest {
     }
 }
 
-/// Ties a session's queue to a stage: an [`Observer`] that hands the stage what clients sent, and the clients what came of it.
+/// Connects a session's queue to a stage: an [`Observer`] that applies clients' requests before each step and publishes
+/// frames after it.
 ///
 /// ```
 /// use sinew_live::session::{SceneManifest, Server, ServerSettings, SessionObserver};
@@ -59,7 +59,7 @@ impl SceneManifest {
 pub struct SessionObserver {
     queue: StageQueue,
     steps_per_frame: u64,
-    has_obeyed: bool,
+    has_applied: bool,
     hashes: BTreeMap<u64, String>,
     applied: Vec<AppliedCommand>,
 }
@@ -67,25 +67,25 @@ pub struct SessionObserver {
 /// A command or key that was applied, for the report.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct AppliedCommand {
-    /// A key, or the command's word.
+    /// The key, or the command's `do`.
     pub what: String,
-    /// Whose client sent it.
+    /// The client: names of its actors, or `operator`.
     pub by: String,
     /// Physics steps that were done when it arrived.
     pub arrived_step: u64,
-    /// Physics steps that were done before the one that applied it; it stands in the take so.
+    /// Physics steps that were done before the one that applied it, as the take records it.
     pub step: u64,
 }
 
-/// AppliedCommand commands that are kept; of more the last.
-const MAX_OBEYED: usize = 1_000;
+/// Maximum number of applied commands that are kept: the last ones.
+const MAX_APPLIED: usize = 1_000;
 
 impl SessionObserver {
-    /// A queue for a stage.
+    /// An observer for a stage and its queue.
     pub fn new(queue: StageQueue, stage: &Stage) -> SessionObserver {
         let steps_per_frame = u64::from(stage.scene().stage.steps_per_frame()).max(1);
         let mut session_observer =
-            SessionObserver { queue, steps_per_frame, has_obeyed: false, hashes: BTreeMap::new(), applied: Vec::new() };
+            SessionObserver { queue, steps_per_frame, has_applied: false, hashes: BTreeMap::new(), applied: Vec::new() };
         session_observer.after_step(stage);
         session_observer
     }
@@ -95,24 +95,24 @@ impl SessionObserver {
         &self.hashes
     }
 
-    /// Commands and keys of clients that were applied, performance left out: the last thousand.
+    /// Commands and keys of clients that were applied, without performance samples: the last thousand.
     pub fn applied(&self) -> &[AppliedCommand] {
         &self.applied
     }
 }
 
 impl Observer for SessionObserver {
-    /// Hands the stage what has arrived.
+    /// Passes the requests that have arrived to the stage.
     fn before_step(&mut self, stage: &mut Stage) {
-        self.has_obeyed = false;
+        self.has_applied = false;
         let step = stage.frame().step;
-        for Placed { order, by, arrived_step } in self.queue.orders_of_step() {
-            let what = match order {
-                Order::Press(key) => {
+        for QueuedRequest { request, by, arrived_step } in self.queue.requests_for_step() {
+            let what = match request {
+                ClientRequest::Press(key) => {
                     stage.press(&key);
                     key
                 }
-                Order::Command(command) => {
+                ClientRequest::Command(command) => {
                     let is_sample = matches!(command.action, Action::Perform { .. });
                     let what = (!is_sample).then(|| word(&command));
                     stage.command(command);
@@ -120,32 +120,32 @@ impl Observer for SessionObserver {
                     what
                 }
             };
-            self.has_obeyed = true;
-            if self.applied.len() >= MAX_OBEYED {
+            self.has_applied = true;
+            if self.applied.len() >= MAX_APPLIED {
                 self.applied.remove(0);
             }
             self.applied.push(AppliedCommand { what, by: by.to_string(), arrived_step, step });
         }
     }
 
-    /// Shows what has come of it: at the motion rate, and at once when somebody was applied, so that a pull is seen without
-    /// waiting for the next frame.
+    /// Publishes the frame: at the motion rate, and at once when a request was applied, so that its effect is visible
+    /// without waiting for the next motion frame.
     fn after_step(&mut self, stage: &Stage) {
         let frame = stage.frame();
         self.queue.done(frame.step);
         note_hash(&mut self.hashes, frame.step, frame.hash());
-        if self.has_obeyed || frame.step.is_multiple_of(self.steps_per_frame) {
+        if self.has_applied || frame.step.is_multiple_of(self.steps_per_frame) {
             self.queue.publish(frame);
         }
     }
 
-    /// Whether somebody asked for the end.
+    /// Whether the session was asked to end.
     fn should_stop(&self) -> bool {
         self.queue.should_stop()
     }
 }
 
-/// What a command is called in scenes.
+/// The `do` of a command, as scenes write it.
 fn word(command: &Command) -> String {
     let action = serde_json::to_value(&command.action).unwrap_or_default();
     action.get("do").and_then(|word| word.as_str()).unwrap_or_default().to_owned()

@@ -1,7 +1,7 @@
-//! The stage's side of a session. It runs on the stage's own thread and never waits for anybody.
+//! The stage's side of a session. It is used on the stage's own thread and never blocks.
 
 use super::frame_code::encode_frame;
-use super::limits::MAX_ORDERS_OF_STEP;
+use super::limits::MAX_REQUESTS_PER_STEP;
 use sinew_control::Command;
 use sinew_world::Frame;
 use std::sync::Arc;
@@ -9,67 +9,71 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::Receiver;
 use tokio::sync::watch;
 
-/// Something that a client wants done.
+/// A request of a client to the stage.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Order {
+pub enum ClientRequest {
     /// A command.
     Command(Command),
-    /// A key of the scene; the client may give the commands that it is bound to.
+    /// A key of the scene; the client is allowed the commands that it is bound to.
     Press(String),
 }
 
-/// An order and where it came from.
+/// A request and its origin.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Placed {
-    /// What is to be done.
-    pub order: Order,
-    /// Whose client it was: names of its actors, or `operator`.
+pub struct QueuedRequest {
+    /// The request.
+    pub request: ClientRequest,
+    /// The client: names of its actors, or `operator`.
     pub by: Arc<str>,
     /// Physics steps that were done when it arrived.
     pub arrived_step: u64,
 }
 
-/// What network and stage share without locks.
+/// State that network and stage share without locks.
 #[derive(Debug, Default)]
 pub(super) struct Shared {
     /// Physics steps done.
     pub step: AtomicU64,
-    /// Somebody asked for the end.
+    /// The session was asked to end.
     pub stop: AtomicBool,
     pub counts: Counts,
 }
 
-/// What came of all that arrived.
+/// Atomic counters behind [`ServerCounts`].
 #[derive(Debug, Default)]
 pub(super) struct Counts {
     pub joined: AtomicU64,
     pub present: AtomicU64,
-    pub strangers_refused: AtomicU64,
-    pub orders: AtomicU64,
-    pub orders_refused: AtomicU64,
-    pub orders_dropped: AtomicU64,
+    pub connections_refused: AtomicU64,
+    pub requests: AtomicU64,
+    pub requests_refused: AtomicU64,
+    pub requests_dropped: AtomicU64,
     pub frames_sent: AtomicU64,
     pub frames_dropped: AtomicU64,
 }
 
-/// What came of all that arrived at a server, for its report.
+/// Statistics of a server, for its report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct ServerCounts {
-    /// Clients that were let in.
+    /// Clients that have joined.
     pub joined: u64,
-    /// Clients that are in now.
+    /// Clients that are connected now.
     pub present: u64,
-    /// Connections that did not show a valid secret, or were too many.
-    pub strangers_refused: u64,
-    /// Orders that were passed to the stage.
-    pub orders: u64,
-    /// Orders that the client may not give, or that were not understood.
-    pub orders_refused: u64,
-    /// Orders that were too many.
-    pub orders_dropped: u64,
+    /// Connections refused because they did not authenticate, or exceeded the maximum number.
+    #[serde(rename = "strangers_refused")]
+    pub connections_refused: u64,
+    /// Requests that were queued for the stage.
+    #[serde(rename = "orders")]
+    pub requests: u64,
+    /// Requests that were not allowed, or invalid.
+    #[serde(rename = "orders_refused")]
+    pub requests_refused: u64,
+    /// Requests dropped because the queue was full or the rate limit was exceeded.
+    #[serde(rename = "orders_dropped")]
+    pub requests_dropped: u64,
     /// Frames sent, over all clients.
     pub frames_sent: u64,
-    /// Frames that were given up for newer ones, over all clients.
+    /// Frames dropped for newer ones, over all clients.
     pub frames_dropped: u64,
 }
 
@@ -79,10 +83,10 @@ impl Counts {
         ServerCounts {
             joined: of(&self.joined),
             present: of(&self.present),
-            strangers_refused: of(&self.strangers_refused),
-            orders: of(&self.orders),
-            orders_refused: of(&self.orders_refused),
-            orders_dropped: of(&self.orders_dropped),
+            connections_refused: of(&self.connections_refused),
+            requests: of(&self.requests),
+            requests_refused: of(&self.requests_refused),
+            requests_dropped: of(&self.requests_dropped),
             frames_sent: of(&self.frames_sent),
             frames_dropped: of(&self.frames_dropped),
         }
@@ -94,33 +98,33 @@ pub(super) fn count(one: &AtomicU64) {
     one.fetch_add(1, Ordering::Relaxed);
 }
 
-/// An encoded frame on its way to everybody.
+/// An encoded frame, shared by all connections.
 pub(super) type Sent = Arc<Vec<u8>>;
 
-/// Where the stage takes orders and hands out frames.
+/// The queue from which the stage takes requests, and to which it publishes frames.
 pub struct StageQueue {
-    pub(super) orders: Receiver<Placed>,
+    pub(super) requests: Receiver<QueuedRequest>,
     pub(super) frames: watch::Sender<Sent>,
     pub(super) shared: Arc<Shared>,
-    /// Buffers of frames; one that nobody reads any more is used again.
+    /// Buffers of frames; one without readers is reused.
     pub(super) buffers: Vec<Sent>,
 }
 
-/// Buffers that are kept.
+/// Maximum number of kept buffers.
 const MAX_BUFFERS: usize = 256;
 
 impl StageQueue {
-    /// The next order, if one waits. A step should take no more than [`MAX_ORDERS_OF_STEP`].
-    pub fn next_order(&mut self) -> Option<Placed> {
-        self.orders.try_recv().ok()
+    /// The next request, if one is queued. A step should take no more than [`MAX_REQUESTS_PER_STEP`].
+    pub fn next_request(&mut self) -> Option<QueuedRequest> {
+        self.requests.try_recv().ok()
     }
 
-    /// Orders for the next step, in the order of their arrival.
-    pub fn orders_of_step(&mut self) -> impl Iterator<Item = Placed> {
-        self.orders.try_iter().take(MAX_ORDERS_OF_STEP)
+    /// Requests for the next step, in the order of arrival, at most [`MAX_REQUESTS_PER_STEP`].
+    pub fn requests_for_step(&mut self) -> impl Iterator<Item = QueuedRequest> {
+        self.requests.try_iter().take(MAX_REQUESTS_PER_STEP)
     }
 
-    /// Says how far the stage is; with a frame to send, everybody gets it.
+    /// Publishes a frame to all clients.
     pub fn publish(&mut self, frame: &Frame) {
         let mut buffer = self.free_buffer();
         if let Some(bytes) = Arc::get_mut(&mut buffer) {
@@ -133,12 +137,12 @@ impl StageQueue {
         self.frames.send_replace(buffer);
     }
 
-    /// Says how far the stage is.
+    /// Sets the number of physics steps done.
     pub fn done(&self, step: u64) {
         self.shared.step.store(step, Ordering::Relaxed);
     }
 
-    /// Whether somebody asked for the end.
+    /// Whether the session was asked to end.
     pub fn should_stop(&self) -> bool {
         self.shared.stop.load(Ordering::Relaxed)
     }

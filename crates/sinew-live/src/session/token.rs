@@ -1,4 +1,4 @@
-//! What a server hands out so that others can join: where it is, how to know it again, and a secret.
+//! The join token that a server prints: its address, the fingerprint of its certificate, and a secret.
 
 use super::SessionError;
 use base64::Engine;
@@ -10,13 +10,13 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
-    /// Plays actors: commands those that it joined as, and no others. Without an actor it only watches.
+    /// Commands the actors that it joined as, and no others. Without an actor it only watches.
     Actor,
     /// Commands everything.
     Operator,
 }
 
-/// A way into a session. Whoever has it can join; it is as good as a password and lasts as long as the server runs.
+/// A join token. It is a password: its holder can join as long as the server runs.
 ///
 /// Written as `sinew1/actor/HOST:PORT/FINGERPRINT/SECRET`, the last two in URL-safe base64 without padding.
 ///
@@ -31,20 +31,20 @@ pub enum Role {
 pub struct Token {
     /// What its holder may do.
     pub role: Role,
-    /// A name or an address.
+    /// Host name or IP address.
     pub host: String,
     /// UDP port.
     pub port: u16,
     /// SHA-256 of the server's certificate (DER).
     pub fingerprint: [u8; 32],
-    /// Shown to the server, and to nobody else, once its certificate has been checked.
+    /// The password; sent to the server only after its certificate has been checked.
     pub secret: [u8; 32],
 }
 
-/// Longest token that is read \[bytes\].
+/// Maximum length of a token \[bytes\].
 const MAX_BYTES: usize = 512;
 
-/// The first word: tells a token from other text, and its version.
+/// The prefix: marks a token and its version.
 const MARK: &str = "sinew1";
 
 impl Role {
@@ -58,8 +58,8 @@ impl Role {
 }
 
 impl Token {
-    /// Host and port as one text, an IPv6 address in brackets.
-    pub fn place(&self) -> String {
+    /// Host and port as text, an IPv6 address in brackets.
+    pub fn address(&self) -> String {
         if self.host.contains(':') {
             format!("[{}]:{}", self.host, self.port)
         } else {
@@ -67,12 +67,12 @@ impl Token {
         }
     }
 
-    /// The same way in by another name of the host, `HOST` or `HOST:PORT`.
+    /// The same token with another address of the server, `HOST` or `HOST:PORT`.
     ///
     /// # Errors
-    /// A text that names no host.
-    pub fn at(mut self, place: &str) -> Result<Token, SessionError> {
-        let (host, port) = split_place(place)?;
+    /// An invalid host or port.
+    pub fn with_address(mut self, address: &str) -> Result<Token, SessionError> {
+        let (host, port) = split_address(address)?;
         self.host = host;
         self.port = port.unwrap_or(self.port);
         Ok(self)
@@ -83,14 +83,14 @@ impl Display for Token {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let code = |bytes: &[u8; 32]| URL_SAFE_NO_PAD.encode(bytes);
         let (fingerprint, secret) = (code(&self.fingerprint), code(&self.secret));
-        write!(f, "{MARK}/{}/{}/{fingerprint}/{secret}", self.role.name(), self.place())
+        write!(f, "{MARK}/{}/{}/{fingerprint}/{secret}", self.role.name(), self.address())
     }
 }
 
-/// The secret stays out of logs.
+/// Leaves out the secret, so that it does not appear in logs.
 impl fmt::Debug for Token {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{MARK}/{}/{}/...", self.role.name(), self.place())
+        write!(f, "{MARK}/{}/{}/...", self.role.name(), self.address())
     }
 }
 
@@ -104,7 +104,7 @@ impl FromStr for Token {
             return Err(wrong("it is too long"));
         }
         let pieces: Vec<&str> = text.split('/').collect();
-        let [mark, role, place, fingerprint, secret] = pieces[..] else {
+        let [mark, role, address, fingerprint, secret] = pieces[..] else {
             return Err(wrong("it does not have five pieces between `/`"));
         };
         if mark != MARK {
@@ -115,11 +115,11 @@ impl FromStr for Token {
             "operator" => Role::Operator,
             _ => return Err(wrong("its second piece is neither `actor` nor `operator`")),
         };
-        let (host, port) = split_place(place)?;
+        let (host, port) = split_address(address)?;
         let port = port.ok_or_else(|| wrong("it has no port"))?;
         let bytes = |text: &str, what: &str| {
             let bytes = URL_SAFE_NO_PAD.decode(text).ok().and_then(|bytes| <[u8; 32]>::try_from(bytes).ok());
-            bytes.ok_or_else(|| SessionError::Token(format!("its {what} is cut off or changed")))
+            bytes.ok_or_else(|| SessionError::Token(format!("its {what} is truncated or changed")))
         };
         Ok(Token {
             role,
@@ -132,18 +132,18 @@ impl FromStr for Token {
 }
 
 /// `HOST`, `HOST:PORT`, `[V6]`, `[V6]:PORT` or a bare IPv6 address.
-fn split_place(text: &str) -> Result<(String, Option<u16>), SessionError> {
+fn split_address(text: &str) -> Result<(String, Option<u16>), SessionError> {
     let wrong = |problem: &str| SessionError::Token(problem.to_owned());
     let port = |text: &str| match text.parse::<u16>() {
         Ok(port) if port != 0 => Ok(port),
-        _ => Err(wrong("its port is no number from 1 to 65535")),
+        _ => Err(wrong("its port is not a number from 1 to 65535")),
     };
     let (host, port) = if let Some(rest) = text.strip_prefix('[') {
         let (host, rest) = rest.split_once(']').ok_or_else(|| wrong("a `[` has no `]`"))?;
         match rest.strip_prefix(':') {
             Some(text) => (host, Some(port(text)?)),
             None if rest.is_empty() => (host, None),
-            None => return Err(wrong("after `]` a `:` and the port are expected")),
+            None => return Err(wrong("after `]`, `:` and the port are expected")),
         }
     } else if text.matches(':').count() == 1 {
         let (host, text) = text.split_once(':').unwrap_or((text, ""));
@@ -153,7 +153,7 @@ fn split_place(text: &str) -> Result<(String, Option<u16>), SessionError> {
     };
     let is_sound = |c: char| c.is_ascii_alphanumeric() || ".-_:%".contains(c);
     if host.is_empty() || !host.chars().all(is_sound) {
-        return Err(wrong("it names no host"));
+        return Err(wrong("its host is empty or invalid"));
     }
     Ok((host.to_owned(), port))
 }
@@ -185,7 +185,7 @@ mod tests {
         #[test]
         fn no_text_brings_the_reader_down(text in any::<String>()) {
             let _ = text.parse::<Token>();
-            let _ = split_place(&text);
+            let _ = split_address(&text);
         }
     }
 }

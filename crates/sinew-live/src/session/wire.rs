@@ -50,9 +50,9 @@ impl<'a> Reader<'a> {
     }
 
     /// A count, no larger than allowed.
-    pub(super) fn count(&mut self, most: usize) -> Result<usize, Malformed> {
+    pub(super) fn count(&mut self, max: usize) -> Result<usize, Malformed> {
         let count = usize::from(self.u16()?);
-        if count <= most { Ok(count) } else { Err(Malformed("it counts more than is allowed")) }
+        if count <= max { Ok(count) } else { Err(Malformed("it counts more than is allowed")) }
     }
 
     pub(super) fn end(&self) -> Result<(), Malformed> {

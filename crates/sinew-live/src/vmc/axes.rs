@@ -1,9 +1,9 @@
-//! Between Unity's axes (left-handed: +X to the right of who faces +Z, Y up) and ours (right-handed, +X to the left). Both are
-//! metres; the way there is the way back.
+//! Converts between Unity's axes (left-handed: facing +Z, +X to the right, Y up) and ours (right-handed, +X to the
+//! left). Both are in metres; the conversion is its own inverse.
 
 use glam::{DQuat, DVec3};
 
-/// A place or a direction, mirrored.
+/// A position or direction, mirrored in x.
 pub(super) fn mirrored(vector: DVec3) -> DVec3 {
     DVec3::new(-vector.x, vector.y, vector.z)
 }

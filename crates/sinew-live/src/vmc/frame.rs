@@ -1,4 +1,4 @@
-//! A performer as one datagram.
+//! One sample of a performer as one VMC datagram.
 
 use super::axes::{mirrored, mirrored_turn};
 use super::{BONE, OK, ROOT, SEQ, TIME};
@@ -8,44 +8,44 @@ use sinew_body::humanoid::{Body, Node};
 use sinew_control::perform::{PerformerSample, SampleStatus, TPose};
 use sinew_motion::Part;
 
-/// What one datagram says: numbers as they go out, in our axes, sound or not.
+/// The contents of one datagram, in our axes. Numbers are not checked, so that tests can send invalid ones.
 #[derive(Clone, Debug)]
 pub struct VmcFrame {
     /// Sender's time \[s\].
     pub time_secs: f64,
-    /// Running number, of our own sender.
+    /// Sequence number, of our own sender.
     pub number: Option<u64>,
-    /// Whether the performer is seen.
+    /// Whether the capture system tracks the performer.
     pub is_seen: bool,
-    /// Place of every part in its parent \[m\], the hips' in the space; by [`Part::ALL`].
-    pub places: [DVec3; Part::COUNT],
-    /// `parent_from_part` turns.
-    pub turns: [DQuat; Part::COUNT],
+    /// Position of every part in its parent's frame \[m\], of the hips in the world; in the order of [`Part::ALL`].
+    pub positions: [DVec3; Part::COUNT],
+    /// `parent_from_part` rotations, in the order of [`Part::ALL`].
+    pub rotations: [DQuat; Part::COUNT],
 }
 
 impl VmcFrame {
-    /// A sample of somebody with this body.
+    /// The datagram for a sample of a performer with this body.
     pub fn of(sample: &PerformerSample, body: &Body) -> VmcFrame {
-        let mut places = [DVec3::ZERO; Part::COUNT];
+        let mut positions = [DVec3::ZERO; Part::COUNT];
         for node in Node::ALL {
             let Some(parent) = node.parent() else { continue };
-            // Offsets are in the parent node's frame, which hangs where the part's stands out.
-            places[node.part() as usize] = TPose::part_from_node(parent) * body.link(node).offset;
+            // Offsets are in the parent node's frame: arms hang there, and stand out in the T-pose of parts.
+            positions[node.part() as usize] = TPose::part_from_node(parent) * body.link(node).offset;
         }
         // The chest's joint is shared by the two parts below it.
-        places[Part::Spine as usize] = places[Part::Chest as usize];
-        places[Part::Chest as usize] = DVec3::ZERO;
-        places[Part::Hips as usize] = sample.hips_m();
+        positions[Part::Spine as usize] = positions[Part::Chest as usize];
+        positions[Part::Chest as usize] = DVec3::ZERO;
+        positions[Part::Hips as usize] = sample.hips_m();
         VmcFrame {
             time_secs: sample.time_secs,
             number: sample.number,
             is_seen: sample.status == SampleStatus::Tracked,
-            places,
-            turns: std::array::from_fn(|at| sample.turn(Part::ALL[at])),
+            positions,
+            rotations: std::array::from_fn(|at| sample.turn(Part::ALL[at])),
         }
     }
 
-    /// The datagram: one bundle. Single precision, as VMC has it.
+    /// The datagram as bytes: one OSC bundle, single precision as VMC specifies.
     pub fn to_bytes(&self) -> Vec<u8> {
         let message = |addr: &str, args: Vec<OscType>| OscPacket::Message(OscMessage { addr: addr.to_owned(), args });
         let int = |value: bool| OscType::Int(i32::from(value));
@@ -60,11 +60,11 @@ impl VmcFrame {
         content.push(message(ROOT, placed("root", DVec3::ZERO, DQuat::IDENTITY)));
         for &part in Part::ALL {
             let name = unity_name(part);
-            content.push(message(BONE, placed(&name, self.places[part as usize], self.turns[part as usize])));
+            content.push(message(BONE, placed(&name, self.positions[part as usize], self.rotations[part as usize])));
         }
         // "Immediately", in OSC.
         let timetag = OscTime { seconds: 0, fractional: 1 };
-        // Only a nesting deeper than an address space fails.
+        // The encoder fails only on nesting deeper than the address space.
         rosc::encoder::encode(&OscPacket::Bundle(OscBundle { timetag, content })).unwrap_or_default()
     }
 }

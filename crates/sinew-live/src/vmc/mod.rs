@@ -1,9 +1,9 @@
-//! VMC: the open protocol that VR and suit software speaks, OSC messages over UDP (<https://protocol.vmc.info>).
+//! VMC, the open protocol of VR and motion capture software: OSC messages over UDP (<https://protocol.vmc.info>).
 //!
-//! [`VmcReader`] makes samples of datagrams, whatever is in them; [`VmcFrame`] writes them. Read are the address `/VMC/Ext/OK`
-//! (is the performer seen), `/VMC/Ext/T` (the sender's time), `/VMC/Ext/Root/Pos` in its forms 2.0 and 2.1 (scale and offset of the
-//! newer form are for mixing with camera pictures and not used) and `/VMC/Ext/Bone/Pos`. Our own sender adds `/sinew/Ext/Seq`, a
-//! running number and the time in double precision.
+//! [`VmcReader`] decodes datagrams into samples, for any bytes; [`VmcFrame`] encodes them. The reader uses the
+//! addresses `/VMC/Ext/OK` (whether the performer is tracked), `/VMC/Ext/T` (the sender's time), `/VMC/Ext/Root/Pos` in
+//! its forms 2.0 and 2.1 (scale and offset of the newer form are for mixing with camera pictures and not used) and
+//! `/VMC/Ext/Bone/Pos`. Our own sender adds `/sinew/Ext/Seq`, a sequence number and the time in double precision.
 
 mod axes;
 mod frame;
@@ -14,7 +14,7 @@ pub use frame::VmcFrame;
 pub use osc::{MAX_DATAGRAM_BYTES, Malformed};
 pub use reader::VmcReader;
 
-/// The port that receivers usually have.
+/// The default port of VMC receivers.
 pub const VMC_PORT: u16 = 39539;
 
 const OK: &str = "/VMC/Ext/OK";

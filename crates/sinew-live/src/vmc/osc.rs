@@ -1,45 +1,45 @@
-//! OSC from strangers: looked over before the library decodes it, so that no bytes exhaust a small stack or the memory.
+//! Untrusted OSC: validated before the library decodes it, so that no bytes exhaust stack or memory.
 
 use rosc::{OscMessage, OscPacket, OscType};
 
-/// Largest datagram that is looked at \[bytes\]. A whole performer has about 2000.
+/// Maximum size of a datagram \[bytes\]; larger ones are refused. A whole performer has about 2000.
 pub const MAX_DATAGRAM_BYTES: usize = 16 << 10;
 
-/// Deepest nesting of bundles; senders use one.
-const DEEPEST: usize = 4;
+/// Maximum nesting depth of bundles; senders use one.
+const MAX_DEPTH: usize = 4;
 
-/// Most messages in a datagram: a performer's bones, fingers and blend shapes are below 300.
+/// Maximum number of messages in a datagram: a performer's bones, fingers and blend shapes are below 300.
 const MAX_MESSAGES: usize = 1000;
 
-/// Longest address \[bytes\].
+/// Maximum length of an OSC address \[bytes\].
 const MAX_ADDRESS: usize = 256;
 
 const BUNDLE: &[u8] = b"#bundle\0";
 
-/// Why a datagram was thrown away.
+/// Why a datagram was discarded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Malformed {
     /// It is too large.
     #[error("a datagram of more than {MAX_DATAGRAM_BYTES} bytes; send a performer's bones in smaller bundles")]
     Large,
-    /// Bundles in bundles in bundles.
-    #[error("bundles nested more than {DEEPEST} deep; send one bundle of messages")]
+    /// Bundles are nested too deeply.
+    #[error("bundles nested more than {MAX_DEPTH} deep; send one bundle of messages")]
     Deep,
-    /// It is cut off, or its sizes do not add up.
-    #[error("this is no OSC: its sizes do not add up; check that the sender speaks VMC")]
+    /// It is truncated, or its sizes do not add up.
+    #[error("not valid OSC: sizes do not add up; check that the sender uses VMC")]
     Sizes,
-    /// An element is none.
-    #[error("this is no OSC message; check that the sender speaks VMC")]
+    /// An element is not a valid message.
+    #[error("not a valid OSC message; check that the sender uses VMC")]
     Message,
 }
 
-/// Hands every message of a datagram to `each`, in order. Messages before a broken one have been handed out by then.
+/// Passes every message of a datagram to `each`, in order; none if any part of the datagram is invalid.
 pub(super) fn read(bytes: &[u8], each: &mut dyn FnMut(&OscMessage)) -> Result<(), Malformed> {
     if bytes.len() > MAX_DATAGRAM_BYTES {
         return Err(Malformed::Large);
     }
     let mut left = MAX_MESSAGES;
-    // All or nothing: half a bundle would be half a pose.
+    // Two passes, all or nothing: half a bundle would be half a pose.
     element(bytes, 0, &mut left, &mut |_| ())?;
     let mut left = MAX_MESSAGES;
     element(bytes, 0, &mut left, each)
@@ -50,7 +50,7 @@ fn element(bytes: &[u8], depth: usize, left: &mut usize, each: &mut dyn FnMut(&O
         *left = left.checked_sub(1).ok_or(Malformed::Large)?;
         return message(bytes, each);
     };
-    if depth >= DEEPEST {
+    if depth >= MAX_DEPTH {
         return Err(Malformed::Deep);
     }
     // The time tag is not used: VMC has its own time.
@@ -88,7 +88,7 @@ fn message(bytes: &[u8], each: &mut dyn FnMut(&OscMessage)) -> Result<(), Malfor
     }
 }
 
-/// A number of whatever kind; NaN where it is none.
+/// A number of any OSC type as `f64`; NaN if it is not a number.
 pub(super) fn number(value: Option<&OscType>) -> f64 {
     match value {
         Some(OscType::Float(value)) => f64::from(*value),

@@ -1,4 +1,4 @@
-//! Datagrams in, samples out.
+//! Decodes VMC datagrams into samples.
 
 use super::axes::{mirrored, mirrored_turn};
 use super::osc::{self, Malformed, number};
@@ -8,10 +8,10 @@ use rosc::{OscMessage, OscType};
 use sinew_control::perform::{BodyProportions, PerformerSample, SampleStatus};
 use sinew_motion::Part;
 
-/// Puts the messages of one sender together.
+/// Assembles samples from the messages of one sender.
 ///
-/// A sender's frame may come as one bundle, in several datagrams or message by message. A frame is complete when its time has come
-/// (`/VMC/Ext/T`) and all bones are there that the sender usually sends, or when the next one begins.
+/// A sender's frame may come as one bundle, in several datagrams or message by message. A frame is complete when its
+/// time (`/VMC/Ext/T`) and all bones that the sender usually sends have arrived, or when the next one begins.
 ///
 /// ```
 /// use sinew_body::humanoid::{Body, Pose};
@@ -28,16 +28,16 @@ use sinew_motion::Part;
 /// ```
 #[derive(Clone, Debug)]
 pub struct VmcReader {
-    /// Of every part: `parent_from_part` and the place in its parent.
+    /// Position and rotation of every part in its parent's frame.
     bones: [(DVec3, DQuat); Part::COUNT],
     root: (DVec3, DQuat),
-    /// Parts that the present frame has.
+    /// Bit set of the parts in the present frame.
     has: u32,
-    /// Parts that a frame usually has.
+    /// Bit set of the parts in the last frame.
     usual: u32,
     time_secs: Option<f64>,
     number: Option<(u64, f64)>,
-    /// The time came after bones: this sender ends its frames with it.
+    /// The time arrived after bones: this sender ends its frames with it.
     is_closed: bool,
     frames_without_time: u32,
     is_seen: bool,
@@ -45,10 +45,10 @@ pub struct VmcReader {
     frames: u64,
 }
 
-/// Frames after which the lengths are told again.
+/// Number of frames after which the body proportions are sent again.
 const TELL_BUILD: u64 = 60;
 
-/// Frames without a time after which a sender is taken to send none.
+/// Number of frames without a time after which the sender counts as one without times.
 const TIMELESS: u32 = 3;
 
 const HIPS: u32 = 1 << Part::Hips as u32;
@@ -60,7 +60,7 @@ impl Default for VmcReader {
 }
 
 impl VmcReader {
-    /// Nothing heard yet.
+    /// A reader before the first datagram.
     pub fn new() -> VmcReader {
         VmcReader {
             bones: [(DVec3::ZERO, DQuat::IDENTITY); Part::COUNT],
@@ -77,11 +77,11 @@ impl VmcReader {
         }
     }
 
-    /// Reads a datagram that arrived at a time of ours \[s\], and hands out the samples that it completes. The arrival is the time of
-    /// samples whose sender tells none.
+    /// Reads a datagram that arrived at `arrival_secs` of the local clock \[s\], and passes completed samples to `out`.
+    /// Samples of a sender without times get the arrival time.
     ///
     /// # Errors
-    /// A datagram that is not sound OSC; nothing of it has been used then.
+    /// A datagram that is not valid OSC; none of it is used.
     pub fn datagram(
         &mut self,
         bytes: &[u8],
@@ -124,7 +124,7 @@ impl VmcReader {
             ROOT => self.root = placed(args.get(1..).unwrap_or_default()),
             BONE => {
                 let Some(OscType::String(name)) = args.first() else { return };
-                // Fingers and eyes are no parts.
+                // Fingers and eyes are not among our parts.
                 let Ok(part) = name.parse::<Part>() else { return };
                 if self.has & 1 << part as u32 != 0 && part == Part::Hips {
                     // The hips again: a new frame begins.
@@ -166,7 +166,7 @@ impl VmcReader {
         out(sample);
     }
 
-    /// Lengths, from where the bones are in their parents; some senders tell no places.
+    /// Body proportions from the positions of the bones in their parents; `None` for senders without positions.
     fn build(&self) -> Option<BodyProportions> {
         let place = |part: Part| self.bones[part as usize].0;
         let legs = (place(Part::LeftUpperLeg) + place(Part::RightUpperLeg)) / 2.0;
@@ -177,7 +177,8 @@ impl VmcReader {
     }
 }
 
-/// Place and turn from seven numbers in Unity's axes. The pose `NaN` of a message that is too short is thrown out later.
+/// Position and rotation from seven numbers in Unity's axes. A message that is too short gives NaN, which the outlier
+/// filter rejects later.
 fn placed(args: &[OscType]) -> (DVec3, DQuat) {
     let at = |index: usize| number(args.get(index));
     let place = DVec3::new(at(0), at(1), at(2));

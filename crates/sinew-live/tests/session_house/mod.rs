@@ -124,7 +124,7 @@ pub fn watch_until(client: &Client, step: u64) {
             return;
         }
     }
-    panic!("no frame of step {step}: {:?}, {:?}", client.stats(), client.standing());
+    panic!("no frame of step {step}: {:?}, {:?}", client.stats(), client.state());
 }
 
 /// Waits for something that must come.

@@ -87,33 +87,38 @@ fn every_sample_of_our_own_sender_is_counted_where_it_belongs() {
         rehearsal.until_sent(FRAMES, |_| ());
         let counters = rehearsal.source.counters();
         // From the network's own book.
-        let fates: Vec<_> = (0..FRAMES).map(|number| impairment.fate(number, player.interval_secs())).collect();
+        let deliveries: Vec<_> =
+            (0..FRAMES).map(|number| impairment.delivery(number, player.interval_secs())).collect();
         let copies = |wanted: &dyn Fn(Option<Corruption>) -> bool| -> u64 {
-            let those = fates.iter().filter(|fate| wanted(fate.corruption));
-            those.map(|fate| fate.arrivals_secs.iter().flatten().count() as u64).sum()
+            let those = deliveries.iter().filter(|delivery| wanted(delivery.corruption));
+            those.map(|delivery| delivery.arrivals_secs.iter().flatten().count() as u64).sum()
         };
         let of = |kind: Corruption| copies(&|corruption| corruption == Some(kind));
         let is_fit = |corruption| matches!(corruption, None | Some(Corruption::Jump));
-        let fit_frames = fates.iter().filter(|fate| fate.arrivals_secs[0].is_some() && is_fit(fate.corruption)).count();
-        assert_eq!(rehearsal.malformed, of(Corruption::Cut), "cut off");
-        assert_eq!(counters.received, copies(&|corruption| corruption != Some(Corruption::Cut)));
+        let fit_frames = deliveries
+            .iter()
+            .filter(|delivery| delivery.arrivals_secs[0].is_some() && is_fit(delivery.corruption))
+            .count();
+        assert_eq!(rehearsal.malformed, of(Corruption::Truncated), "cut off");
+        assert_eq!(counters.received, copies(&|corruption| corruption != Some(Corruption::Truncated)));
         assert_eq!(counters.non_finite, of(Corruption::NonFinite));
         assert_eq!(counters.non_unit, of(Corruption::NonUnit));
         assert_eq!(counters.stale, of(Corruption::Stale));
         assert_eq!(counters.duplicates, copies(&is_fit) - fit_frames as u64);
         assert_eq!(counters.used + counters.late + counters.jumps, fit_frames as u64);
-        let jumps =
-            fates.iter().filter(|fate| fate.corruption == Some(Corruption::Jump) && fate.arrivals_secs[0].is_some());
+        let jumps = deliveries
+            .iter()
+            .filter(|delivery| delivery.corruption == Some(Corruption::Jump) && delivery.arrivals_secs[0].is_some());
         let jumps = jumps.count() as u64;
         // One that comes late is late before it is anything else.
         assert!(counters.jumps <= jumps && counters.jumps + counters.late >= jumps);
         // Gone, or cut before its number could be read; what is missing before the first and after the last nobody can know.
         let is_missing = |number: &usize| {
-            let fate = &fates[*number];
-            fate.arrivals_secs[0].is_none() || fate.corruption == Some(Corruption::Cut)
+            let delivery = &deliveries[*number];
+            delivery.arrivals_secs[0].is_none() || delivery.corruption == Some(Corruption::Truncated)
         };
-        let known = (0..fates.len()).find(|number| !is_missing(number)).unwrap()
-            ..(0..fates.len()).rfind(|number| !is_missing(number)).unwrap();
+        let known = (0..deliveries.len()).find(|number| !is_missing(number)).unwrap()
+            ..(0..deliveries.len()).rfind(|number| !is_missing(number)).unwrap();
         assert_eq!(counters.lost, known.filter(is_missing).count() as u64);
         assert!(!counters.lost_is_estimate);
         // A held back frame is 17 to 50 ms late on top of 30 ms of jitter: few of them are in time.
@@ -126,11 +131,11 @@ fn loss_without_numbers_is_an_estimate_and_called_so() {
     let Some(player) = player(WALK, 60.0) else { return };
     let impairment = Impairment { loss: 0.05, seed: 9, ..Impairment::default() };
     let mut rehearsal = Rehearsal::new(&player, Impairment::default());
-    let lost = (0..FRAMES).filter(|&number| impairment.fate(number, 1.0).arrivals_secs[0].is_none()).count() as f64;
+    let lost = (0..FRAMES).filter(|&number| impairment.delivery(number, 1.0).arrivals_secs[0].is_none()).count() as f64;
     for step in 0..FRAMES * 4 {
         let now = step as f64 / 240.0;
         let number = step / 4;
-        if step % 4 == 0 && impairment.fate(number, 1.0).arrivals_secs[0].is_some() {
+        if step % 4 == 0 && impairment.delivery(number, 1.0).arrivals_secs[0].is_some() {
             let sample = sinew_control::perform::PerformerSample { number: None, ..player.sample(number) };
             rehearsal.source.receive(&sample, now);
         }

@@ -1,7 +1,7 @@
 //! What somebody who has joined keeps of what they see.
 
 use serde::Serialize;
-use sinew_live::session::{Client, ClientStats, Role, Standing};
+use sinew_live::session::{Client, ClientStats, ConnectionState, Role};
 use sinew_stage::{Recording, StageError};
 use sinew_world::Frame;
 
@@ -32,8 +32,8 @@ impl JoinReport {
             role: welcome.role,
             actors: welcome.actors.clone(),
             joined_step: welcome.step,
-            ended: match client.standing() {
-                Standing::Ended(why) => Some(why.to_string()),
+            ended: match client.state() {
+                ConnectionState::Ended(why) => Some(why.to_string()),
                 _ => None,
             },
             stats: client.stats(),
