@@ -137,7 +137,7 @@ fn what_cannot_be_performed_or_heard_is_told() {
     std::fs::write(folder.join("walk.txt"), "no BVH").unwrap();
     sinew(folder, ["perform", "walk.txt", "--to", "tcp://127.0.0.1:9"]).failed(&["walk.txt", "begins with HIERARCHY"]);
     // What has no end is not read.
-    sinew(folder, ["perform", "/dev/zero", "--to", "tcp://127.0.0.1:9"]).failed(&["this is no file"]);
+    sinew(folder, ["perform", "/dev/zero", "--to", "tcp://127.0.0.1:9"]).failed(&["it is not a file"]);
     sinew(folder, ["perform", "--to", "udp://127.0.0.1:39539", "--loss", "5"]).refused(&["from 0 to 1"]);
     let port = scene(folder)[0];
     let _taken = UdpSocket::bind(("127.0.0.1", port)).unwrap();

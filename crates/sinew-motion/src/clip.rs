@@ -34,7 +34,7 @@ impl Clip {
     /// translation of their rest.
     ///
     /// # Panics
-    /// If the frame time is not positive and finite, or `moving` names a joint that is not there.
+    /// If the frame time is not positive and finite, or `moving` names a joint that does not exist.
     pub fn new(skeleton: Skeleton, frame_time_secs: f64, mut moving: Vec<usize>) -> Clip {
         assert!(frame_time_secs.is_finite() && frame_time_secs > 0.0, "a frame takes time");
         moving.sort_unstable();
@@ -136,7 +136,7 @@ impl Clip {
         world
     }
 
-    /// As [`Clip::world`], into a vector that is kept: no allocation once it has grown.
+    /// As [`Clip::world`], into an existing vector: no allocation once it has grown.
     pub fn world_into(&self, frame: usize, world: &mut Vec<Transform>) {
         world.clear();
         for (index, joint) in self.skeleton.joints().iter().enumerate() {
@@ -145,7 +145,7 @@ impl Clip {
         }
     }
 
-    /// The first non-finite value, as frame and joint; `None` when all is well.
+    /// The first non-finite value (NaN or infinite), as frame and joint; `None` if all are finite.
     pub fn first_non_finite(&self) -> Option<(usize, usize)> {
         let joints = self.skeleton.len();
         let rotation = self.rotations.iter().position(|rotation| !rotation.is_finite());

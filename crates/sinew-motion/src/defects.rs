@@ -1,4 +1,5 @@
-//! What is wrong with a motion.
+//! Detection of defects in a motion: a rest pose at the start, frozen frames, jumps, a floor offset, foot sliding,
+//! zero-length bones.
 
 use crate::floor::{Feet, contacts, floor_height_m, runs};
 use crate::gait::pose_gap;
@@ -12,9 +13,9 @@ pub enum DefectKind {
     RestPoseFirst,
     /// Many frames in a row are one and the same pose.
     Frozen,
-    /// A joint or the whole body leaps within one frame.
+    /// A joint or the whole body jumps within one frame.
     Jump,
-    /// The standing feet are above the height Y = 0 that files take for the floor.
+    /// The standing feet are above Y = 0, the floor by convention.
     FloatingFeet,
     /// The standing feet are below Y = 0.
     FeetUnderFloor,
@@ -24,40 +25,42 @@ pub enum DefectKind {
     ZeroLengthBone,
 }
 
-/// Something wrong with a motion.
+/// A defect of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Defect {
-    /// What kind of thing.
+    /// The kind of defect.
     pub kind: DefectKind,
-    /// First and last frame of it, from 0; `None` when it concerns the whole clip.
+    /// First and last frame of the defect, from 0; `None` if it concerns the whole clip.
     pub frames: Option<(usize, usize)>,
-    /// The joint, where it is one.
+    /// The joint, if the defect concerns one.
     pub joint: Option<usize>,
-    /// What, where and how much, for people.
+    /// What, where and how much, as text.
     pub text: String,
 }
 
 /// Frozen frames shorter than this are how people stand still \[s\]; also one pose to the bit.
 const FROZEN_SECS: f64 = 0.1;
-/// Fastest that a joint turns in its parent: a baseball pitcher's shoulder reaches 130 rad/s, everything else stays below 45.
+/// Maximum angular speed of a joint relative to its parent: a baseball pitcher's shoulder reaches 130 rad/s, everything
+/// else stays below 45.
 const FASTEST_TURN_RAD_S: f64 = 60.0;
-/// Fastest that hips travel: the fastest sprint is 12.4 m/s.
+/// Maximum speed of the hips: the fastest sprint is 12.4 m/s.
 const FASTEST_TRAVEL_M_S: f64 = 13.0;
-/// Frames that a glide from the rest pose into the motion takes at most.
+/// Maximum number of frames of a transition from the rest pose into the motion.
 const GLIDE_FRAMES: usize = 12;
-/// Longest flight: a jump of 0.9 m takes 0.86 s \[s\].
+/// Maximum flight time: a jump of 0.9 m takes 0.86 s \[s\].
 const LONGEST_FLIGHT_SECS: f64 = 1.0;
-/// Standing feet this far off Y = 0 are worth telling \[m\].
+/// Standing feet this far from Y = 0 are reported \[m\].
 const OFF_FLOOR_M: f64 = 0.03;
-/// Slide of a foot within one stance that is worth telling \[m\].
+/// Foot sliding within one stance that is reported \[m\].
 const SKATE_M: f64 = 0.05;
 
-/// The first frame that belongs to the motion: 0, or the frame after a rest pose at the beginning. CMU's BVH conversions begin
-/// with a T-pose in frame 0; those for Daz also glide from it into the motion over up to eight frames.
+/// The first frame that belongs to the motion: 0, or the frame after a rest pose at the beginning. CMU's BVH
+/// conversions begin with a T-pose in frame 0; those for Daz also blend from it into the motion over up to eight
+/// frames.
 ///
-/// Frame 0 is such a pose when it differs from frame 1 by more than 8° (root mean square over the joints) and by six times
-/// what later frames (the 90th percentile over about 60) differ by; the glide lasts while frames still differ by four times as
-/// much.
+/// Frame 0 is such a pose when it differs from frame 1 by more than 8° (root mean square over the joints) and by six
+/// times what later frames (the 90th percentile over about 60) differ by; the transition lasts while frames still
+/// differ by four times as much.
 pub fn moves_from(clip: &Clip, humanoid: &Humanoid) -> usize {
     let glide = GLIDE_FRAMES.min(clip.frames() / 2);
     if glide < 2 {
@@ -69,11 +72,11 @@ pub fn moves_from(clip: &Clip, humanoid: &Humanoid) -> usize {
     if step(0) < 8.0 || step(0) < 6.0 * usual {
         return 0;
     }
-    // A tenth of a degree is rest.
+    // Less than a tenth of a degree counts as no motion.
     (0..glide).rev().find(|&frame| step(frame) > 4.0 * usual.max(0.1)).map_or(0, |frame| frame + 1)
 }
 
-/// Finds what is wrong with a clip in metres and Y up, in the order of [`DefectKind`].
+/// Finds the defects of a clip in metres and Y up, in the order of [`DefectKind`].
 pub fn find_defects(clip: &Clip, humanoid: &Humanoid) -> Vec<Defect> {
     let mut defects = Vec::new();
     if clip.frames() == 0 {
@@ -131,7 +134,7 @@ fn jumps(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect
                     kind: DefectKind::Jump,
                     frames: Some((frame - 1, frame)),
                     joint: Some(humanoid.hips()),
-                    text: format!("the hips leap {:.2} m from frame {} to {frame}", hips.distance(before), frame - 1),
+                    text: format!("the hips jump {:.2} m from frame {} to {frame}", hips.distance(before), frame - 1),
                 });
             }
         }
@@ -142,7 +145,7 @@ fn jumps(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect
             usual.push(clip.rotation(frame - 1, joint).angle_between(clip.rotation(frame, joint)));
         }
         for (at, &turn) in usual.iter().enumerate() {
-            // A fast move has fast neighbours, a leap (there, or there and back) does not.
+            // A fast movement has fast neighbouring frames, a jump (there, or there and back) does not.
             let around = usual[at.saturating_sub(3)..(at + 4).min(usual.len())].to_vec();
             let neighbours = quantile(around, 0.5).unwrap_or(0.0);
             if turn * fps > FASTEST_TURN_RAD_S || turn.to_degrees() > 20.0 && turn > 6.0 * neighbours {
@@ -191,8 +194,8 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
     for side in [Side::Left, Side::Right] {
         for (first, last) in contacts.stances(side) {
             let first = first.max(from);
-            // The point that stands is the one that moves least in the middle half of the stance: while the foot lands and leaves it
-            // rolls.
+            // The supporting point is the one that moves least in the middle half of the stance: at landing and
+            // lift-off the foot rolls.
             let quarter = last.saturating_sub(first) / 4;
             let middle = first + quarter..=last.saturating_sub(quarter).max(first + quarter);
             let slide = |point: &crate::floor::FootPoint| {

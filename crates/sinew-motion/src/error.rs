@@ -1,4 +1,4 @@
-//! What can be wrong with a motion file, where, and what to do about it.
+//! Errors of motion files: the place, the problem and the remedy.
 
 use std::fmt;
 use std::path::{Path, PathBuf};

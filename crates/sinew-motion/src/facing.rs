@@ -1,4 +1,4 @@
-//! Which way a body faces.
+//! The facing direction of a body.
 
 use crate::{Clip, Humanoid, Side, Transform};
 use glam::{DQuat, DVec3};
@@ -16,8 +16,8 @@ pub fn facing(world: &[Transform], humanoid: &Humanoid) -> Option<DVec3> {
     (forward.length() > 0.1).then(|| forward.normalize())
 }
 
-/// [`facing`] in every frame of a clip in metres and Y up; where a frame has none, that of the last frame that has
-/// (+Z before any).
+/// [`facing`] in every frame of a clip in metres and Y up; a frame without a direction gets that of the last frame with
+/// one (+Z before any).
 pub fn facings(clip: &Clip, humanoid: &Humanoid) -> Vec<DVec3> {
     let mut world = Vec::new();
     let mut known = None;

@@ -1,9 +1,9 @@
 //! Low-pass filters for motion.
 //!
-//! The filter is the second-order Butterworth low-pass of biomechanics (Winter, *Biomechanics and Motor Control of Human
-//! Movement*, section 3.4.4.2), made digital by the bilinear transform with its cut-off prewarped. One pass lags and halves the power
-//! (-3 dB) at the cut-off; forward and backward ([`LowPass::zero_phase`]) nothing lags and the amplitude is halved there
-//! (-6 dB). The cut-off is not corrected for the second pass.
+//! The filter is the second-order Butterworth low-pass of biomechanics (Winter, *Biomechanics and Motor Control of
+//! Human Movement*, section 3.4.4.2), made digital by the bilinear transform with its cut-off prewarped. One pass lags
+//! and halves the power (-3 dB) at the cut-off; forward and backward ([`LowPass::zero_phase`]) the filter has zero
+//! phase and halves the amplitude there (-6 dB). The cut-off is not corrected for the second pass.
 
 use crate::{Clip, Transform};
 use glam::{DQuat, DVec3};
@@ -26,13 +26,13 @@ pub struct LowPass {
     b: f64,
     a1: f64,
     a2: f64,
-    /// How many samples it takes to forget \[samples\].
+    /// Length of the filter's memory \[samples\].
     settle: usize,
 }
 
 impl LowPass {
-    /// The filter for a cut-off \[Hz\] at a sampling rate \[Hz\]. A cut-off that is not below half the rate (or is not a
-    /// positive number) leaves everything as it is: there is nothing above it to remove.
+    /// The filter for a cut-off \[Hz\] at a sampling rate \[Hz\]. A cut-off that is not below half the rate (or is not
+    /// a positive number) leaves its input unchanged: there is nothing above it to remove.
     pub fn new(cutoff_hz: f64, fps: f64) -> LowPass {
         let usable = cutoff_hz > 0.0 && fps.is_finite() && cutoff_hz < 0.4999 * fps;
         if !usable {
@@ -49,7 +49,7 @@ impl LowPass {
         }
     }
 
-    /// Whether the filter leaves everything as it is.
+    /// Whether the filter leaves its input unchanged.
     pub fn is_identity(&self) -> bool {
         self.a1.is_nan()
     }
@@ -78,8 +78,9 @@ impl LowPass {
         signal.copy_from_slice(&padded[pad..=pad + last]);
     }
 
-    /// As [`LowPass::zero_phase`], for rotations: as quaternions whose signs are made to follow each other, component by
-    /// component, and normalised. Good for turns well below half a turn within the filter's memory, as bodies make them.
+    /// As [`LowPass::zero_phase`], for rotations: as quaternions whose signs are made to follow each other, component
+    /// by component, and normalised. Accurate for rotations well below half a turn within the filter's memory, as in
+    /// human motion.
     pub fn zero_phase_rotations(&self, rotations: &mut [DQuat]) {
         if self.is_identity() {
             return;
@@ -103,7 +104,7 @@ fn toward(before: DQuat, rotation: DQuat) -> DQuat {
     if before.dot(rotation) < 0.0 { -rotation } else { rotation }
 }
 
-/// The unit quaternion, or the other one where there is none. One that is unit already keeps its bits.
+/// The normalised quaternion, or the other one if it has no direction. One that is normalised already keeps its bits.
 fn unit(rotation: DQuat, otherwise: DQuat) -> DQuat {
     let square = rotation.length_squared();
     if square.is_finite() && square > 1e-12 {
@@ -113,8 +114,8 @@ fn unit(rotation: DQuat, otherwise: DQuat) -> DQuat {
     }
 }
 
-/// A low-pass that runs along with a live signal: causal, so it lags (about 37 ms at 6 Hz), and without allocation. Starts
-/// at rest on the first value that it is given.
+/// A causal low-pass for a live signal: it lags (about 37 ms at 6 Hz) and does not allocate. It starts at rest at the
+/// first sample.
 ///
 /// ```
 /// use sinew_motion::{LowPass, LowPassStream};
@@ -131,7 +132,7 @@ pub struct LowPassStream<const N: usize> {
 }
 
 impl<const N: usize> LowPassStream<N> {
-    /// A filter that has seen nothing yet.
+    /// A filter before its first sample.
     pub fn new(filter: LowPass) -> LowPassStream<N> {
         LowPassStream { filter, origin: None, state: [[0.0; 2]; N], last: [0.0; N] }
     }
@@ -154,7 +155,7 @@ impl<const N: usize> LowPassStream<N> {
         self.last
     }
 
-    /// Forgets everything: the next sample is the first.
+    /// Resets the filter: the next sample is the first.
     pub fn reset(&mut self) {
         *self = LowPassStream::new(self.filter);
     }
@@ -209,7 +210,7 @@ pub struct PoseStream {
 }
 
 impl PoseStream {
-    /// A filter for poses of so many joints.
+    /// A filter for poses of `joints` joints.
     pub fn new(filter: LowPass, joints: usize) -> PoseStream {
         PoseStream {
             rotations: vec![LowPassStream::new(filter); joints],
@@ -225,7 +226,7 @@ impl PoseStream {
         }
     }
 
-    /// Forgets everything, for a stream that begins anew.
+    /// Resets the filter, for a stream that restarts.
     pub fn reset(&mut self) {
         self.rotations.iter_mut().for_each(LowPassStream::reset);
         self.translations.iter_mut().for_each(LowPassStream::reset);

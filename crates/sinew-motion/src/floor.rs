@@ -1,21 +1,22 @@
-//! The floor, and the feet on it, as far as joint positions tell.
+//! The floor, and foot contacts, estimated from joint positions.
 
 use crate::pose::quantile;
 use crate::stature::foot_points;
 use crate::{Clip, Humanoid, Side, stature};
 use glam::DVec3;
 
-/// Speed below which a point of a foot stands, and above which it stands no longer \[m/s\], for a stature of 1.7 m.
+/// Speed below which a point of a foot comes into contact, and above which it loses contact \[m/s\], for a stature of
+/// 1.7 m.
 const SLOW_M_S: [f64; 2] = [0.35, 0.6];
-/// Height above its own standing height below which it stands, and above which it stands no longer \[m\], for 1.7 m.
-/// Capture floors are uneven by 2 cm, and a sole that rolls off lifts the ankle.
+/// Height above its own standing height below which it comes into contact, and above which it loses contact \[m\], for
+/// 1.7 m. Capture floors are uneven by 2 cm, and a sole that rolls off lifts the ankle.
 const LOW_M: [f64; 2] = [0.055, 0.09];
 
 /// Height of the floor \[m\] under a clip in metres and Y up: that of the lowest points of the feet when they stand.
 ///
 /// In each frame the lowest of ankles, toes and foot tips counts; the floor is at the 10th percentile of those that are
-/// no faster than 0.35 m/s, so that neither flight nor single dips move it. Skin and shoe soles are below the joints by some
-/// centimetres that no file tells.
+/// no faster than 0.35 m/s, so that neither flight nor single dips move it. Skin and shoe soles are below the joints by
+/// some centimetres that no file states.
 pub fn floor_height_m(clip: &Clip, humanoid: &Humanoid) -> f64 {
     let feet = Feet::of(clip, humanoid);
     let points = || feet.sides.iter().flatten();
@@ -30,16 +31,17 @@ pub fn floor_height_m(clip: &Clip, humanoid: &Humanoid) -> f64 {
             })
             .collect()
     };
-    // Where one foot is always in the air its slow moments are none: take those frames only in which a low point is slow.
+    // The slow moments of a foot that is always in the air are no contacts: use only frames in which a low point is
+    // slow.
     let all = quantile(lowest(false), 0.5).unwrap_or(0.0);
     let standing: Vec<f64> = lowest(true).into_iter().filter(|&height| height < all + 0.1 * feet.scale).collect();
     quantile(standing, 0.1).or(quantile(lowest(false), 0.1)).unwrap_or(0.0)
 }
 
-/// Which foot stands in which frame.
+/// Foot contacts: which foot stands in which frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contacts {
-    /// One entry per frame: whether the left foot carries weight as far as its motion tells.
+    /// One entry per frame: whether the left foot carries weight, as estimated from its motion.
     pub left: Vec<bool>,
     /// The same for the right foot.
     pub right: Vec<bool>,

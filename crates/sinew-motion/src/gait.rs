@@ -1,9 +1,9 @@
 //! The gait cycle of a walk or run.
 //!
-//! A stride is looked for between events that every gait has: the moments when a foot is farthest ahead of the hips along
-//! the way they travel. Two such moments of one foot with one of the other foot between them bound a stride; the best is the one whose
-//! two ends agree best in pose. The moment is close to the contact of that foot, and unlike a contact it is sharp in backward,
-//! sneaking and running gaits alike.
+//! A stride is searched between events that every gait has: the moments when a foot is farthest ahead of the hips in
+//! the direction of travel. Two such moments of one foot with one of the other foot between them bound a stride; the
+//! best is the one whose two ends agree best in pose. The moment is close to the contact of that foot, and unlike a
+//! contact it is sharp in backward, sneaking and running gaits alike.
 
 use crate::defects::moves_from;
 use crate::facing::facings;
@@ -11,17 +11,17 @@ use crate::filter::LowPass;
 use crate::{Clip, Humanoid, Side, stature};
 use glam::{DQuat, DVec3};
 
-/// Shortest and longest stride that is looked for \[s\]: a sprinter's is 0.45 s, a sneak's 2.5 s.
+/// Minimum and maximum duration of a stride \[s\]: a sprinter's is 0.45 s, a sneak's 2.5 s.
 const PERIOD_SECS: std::ops::RangeInclusive<f64> = 0.4..=3.2;
-/// A stride moves the body at least this share of its stature: less is stepping on the spot.
+/// Minimum displacement of a stride as a share of stature: less is stepping on the spot.
 const MIN_STRIDE: f64 = 0.25;
 /// The other foot's moment comes at this share of the stride.
 const OTHER_FOOT: std::ops::RangeInclusive<f64> = 0.25..=0.75;
-/// Ends further apart than this are no cycle \[deg\].
+/// Maximum difference between the ends of a cycle \[deg\].
 const LARGEST_GAP_DEG: f64 = 20.0;
-/// A loop's ends agree this well \[deg\].
+/// Maximum difference between the ends of a loop \[deg\].
 const LOOP_GAP_DEG: f64 = 3.0;
-/// Below this the legs do not repeat themselves.
+/// Minimum autocorrelation of the legs for a cycle.
 const MIN_PERIODICITY: f64 = 0.5;
 
 /// One stride: two steps, from one moment of a foot to the next.
@@ -43,7 +43,7 @@ pub struct Cycle {
     pub stride_m: f64,
 }
 
-/// Finds the stride whose ends agree best, in a clip in metres and Y up; `None` when nobody walks or runs.
+/// Finds the stride whose ends agree best, in a clip in metres and Y up; `None` if the clip does not walk or run.
 ///
 /// A clip that is one loop, as games have them, is a cycle as a whole, also on the spot: its ends agree within 3° and its legs
 /// take turns.
@@ -191,8 +191,8 @@ fn ways(hips: &[DVec3], faces: &[DVec3], fps: f64, stature_m: f64) -> Vec<DVec3>
         .collect()
 }
 
-/// The frames at the tops of a signal, of hills that rise above both valleys beside them by a good part of a step. Half hills at
-/// the ends of the clip are none.
+/// The frames at the tops of a signal, of hills that rise above both valleys beside them by a good part of a step. Half
+/// hills at the ends of the clip do not count.
 fn peaks(signal: &[f64], fps: f64, stature_m: f64) -> Vec<usize> {
     let mut smooth: Vec<[f64; 1]> = signal.iter().map(|&value| [value]).collect();
     LowPass::new(6.0, fps).zero_phase(&mut smooth);

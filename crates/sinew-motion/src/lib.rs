@@ -1,9 +1,9 @@
-//! Skeletons, clips and motion files: everything about *how a body moves* that can be said without masses.
+//! Skeletons, clips and motion files: kinematics, without masses.
 //!
 //! Inside Sinew a clip is in metres, right-handed, Y up, whatever its file said ([`SourceSpace`] remembers the
 //! difference). Body parts are named as VRM 1.0 humanoid bones ([`Part`]).
 //!
-//! This crate knows nothing of masses, forces or time stepping.
+//! This crate does not know masses, forces or time stepping.
 
 mod clip;
 mod defects;

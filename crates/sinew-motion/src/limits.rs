@@ -1,21 +1,21 @@
-//! What a motion file may ask of us.
+//! Limits for motion files.
 
-/// Limits that every reader holds a file to, so that no file can exhaust memory or stack.
+/// Limits that every reader enforces, so that no file can exhaust memory or stack.
 ///
-/// The defaults are far above any motion that people make and far below what hurts a laptop.
+/// The defaults are far above any real motion and far below what a laptop can handle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Largest file read \[bytes\]; a ten-minute 60-joint BVH at 120 Hz is about 150 MB.
+    /// Maximum file size \[bytes\]; a ten-minute 60-joint BVH at 120 Hz is about 150 MB.
     pub file_bytes: u64,
-    /// Most joints in a skeleton. A full hand-and-face rig has about 200.
+    /// Maximum number of joints in a skeleton. A full hand-and-face rig has about 200.
     pub joints: usize,
-    /// Deepest nesting of joints; readers and writers may recurse this deep.
+    /// Maximum nesting depth of joints; readers and writers may recurse this deep.
     pub depth: usize,
-    /// Most frames in a clip: over two hours at 120 Hz.
+    /// Maximum number of frames in a clip: over two hours at 120 Hz.
     pub frames: usize,
-    /// Most values (frames × channels) in a clip; 8 bytes each and some copies.
+    /// Maximum number of values (frames × channels) in a clip; 8 bytes each and some copies.
     pub values: usize,
-    /// Longest name of a joint \[bytes\].
+    /// Maximum length of a joint's name \[bytes\].
     pub name_bytes: usize,
 }
 

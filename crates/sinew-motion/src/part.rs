@@ -81,7 +81,7 @@ parts! {
 }
 
 impl Part {
-    /// How many parts there are.
+    /// Number of parts.
     pub const COUNT: usize = Part::ALL.len();
 
     /// The same part on the other side of the body; a midline part is its own mirror image.
@@ -102,7 +102,7 @@ impl fmt::Display for Part {
     }
 }
 
-/// A name that is no body part.
+/// An unknown name of a body part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no body part is called {0:?}; parts are the VRM 1.0 bones: hips, spine, chest, head, leftHand, ...")]
 pub struct UnknownPart(String);

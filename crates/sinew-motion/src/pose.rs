@@ -1,16 +1,16 @@
-//! Poses of a clip, to look at as a whole.
+//! Sample poses of a clip, and statistics over them.
 
 use crate::{Clip, Transform};
 use glam::DVec3;
 
-/// `world_from_joint` of every joint in up to `most` frames spread evenly over the clip; the rest pose when the clip has
+/// `world_from_joint` of every joint in up to `max` frames spread evenly over the clip; the rest pose when the clip has
 /// no frames.
-pub(crate) fn sample_poses(clip: &Clip, most: usize) -> Vec<Vec<Transform>> {
+pub(crate) fn sample_poses(clip: &Clip, max: usize) -> Vec<Vec<Transform>> {
     let frames = clip.frames();
     if frames == 0 {
         return vec![clip.skeleton().rest_world()];
     }
-    let count = frames.min(most);
+    let count = frames.min(max);
     (0..count).map(|sample| clip.world(if count < 2 { 0 } else { sample * (frames - 1) / (count - 1) })).collect()
 }
 
@@ -26,7 +26,7 @@ pub(crate) fn leading_axis(vectors: impl Iterator<Item = DVec3>) -> DVec3 {
     if sum.dot(best) < 0.0 { -best } else { best }
 }
 
-/// The value below which the given share (0 to 1) of the values lies; `None` of none.
+/// The value below which the given share (0 to 1) of the values lies; `None` if there are no values.
 pub(crate) fn quantile(mut values: Vec<f64>, share: f64) -> Option<f64> {
     values.retain(|value| value.is_finite());
     if values.is_empty() {

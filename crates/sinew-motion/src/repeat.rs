@@ -1,4 +1,4 @@
-//! A gait cycle, played again and again.
+//! Repeats a gait cycle without a seam.
 
 use crate::facing::{facing, heading};
 use crate::{Clip, Humanoid, Transform};
@@ -60,7 +60,7 @@ pub fn repeat(clip: &Clip, humanoid: &Humanoid, (first, last): (usize, usize), t
             }));
             for (joint, local) in locals.iter_mut().enumerate() {
                 let rotation = local.rotation.normalize();
-                // The sign of a quaternion means nothing, but who differentiates it likes it to stay.
+                // The sign of a quaternion has no meaning, but differentiation needs it to be continuous.
                 let before = repeated.frames().checked_sub(1).map_or(rotation, |frame| repeated.rotation(frame, joint));
                 local.rotation = if before.dot(rotation) < 0.0 { -rotation } else { rotation };
             }
@@ -131,7 +131,7 @@ impl Seam {
     /// The joint's transform `frame` frames after the beginning of the cycle.
     fn correct(&self, local: Transform, frame: usize, length: usize, window: f64) -> Transform {
         let share = frame as f64 / self.length - 0.5;
-        // A hat of slope 1 at the seam that is over, speed included, one window away from it.
+        // A bump function of slope 1 at the seam whose value and slope are 0 one window away from it.
         let hat = |distance: f64| {
             if distance < window { distance * (1.0 - distance / window) * (1.0 - distance / window) } else { 0.0 }
         };
@@ -144,7 +144,7 @@ impl Seam {
     }
 }
 
-/// The rotation vector of the shorter way round \[rad\].
+/// The rotation vector of the shorter rotation \[rad\].
 fn rotation_vector(rotation: DQuat) -> DVec3 {
     let near = if rotation.w < 0.0 { -rotation } else { rotation };
     near.to_scaled_axis()

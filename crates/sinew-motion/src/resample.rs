@@ -9,7 +9,7 @@ const CUBIC_UP_TO: f64 = 0.906;
 /// Rates whose ratio is this near to a simple fraction are meant to have it: files round 1/120 s to 0.0083333.
 const SAME_RATE: f64 = 2e-4;
 
-/// The clip at so many frames per second, from its first frame on, as long as the clip lasts.
+/// The clip at `fps` frames per second, from its first frame on, for the clip's duration.
 ///
 /// Frames that fall on frames of the clip keep their bits. Between them, translations follow a Catmull-Rom cubic and
 /// rotations the same cubic of their quaternions (signs aligned, normalised), which keeps velocities continuous; across turns of
@@ -61,7 +61,7 @@ pub fn resample(clip: &Clip, fps: f64) -> Clip {
 
 /// How many source frames one new frame is long.
 enum Step {
-    /// In whole numbers: exact however long the clip.
+    /// In integers: exact for clips of any length.
     Fraction {
         numerator: usize,
         denominator: usize,

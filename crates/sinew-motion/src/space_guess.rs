@@ -1,4 +1,4 @@
-//! Which unit and axes a file means, when it does not say.
+//! Guesses the unit and axes of a file that does not state them.
 
 use crate::stature::{stature, up_axis};
 use crate::{Clip, Humanoid, Note, SourceSpace};
@@ -9,13 +9,13 @@ use std::f64::consts::PI;
 /// A unit that motion files are written in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnitCandidate {
-    /// What people call it.
+    /// Its name.
     pub name: &'static str,
     /// Its length \[m\].
     pub unit_m: f64,
     /// Stature that it gives the body \[m\].
     pub stature_m: f64,
-    /// How far that stature and the unit's rarity speak against it (0 is best; above 8 it is out of the question).
+    /// Penalty for an unlikely stature and a rare unit (0 is best; above 8 the unit is excluded).
     pub doubt: f64,
 }
 
@@ -32,11 +32,11 @@ pub struct SpaceGuess {
     pub up_is_stated: bool,
     /// Other units that would give a person, least doubtful first.
     pub alternatives: Vec<UnitCandidate>,
-    /// What was guessed, for people.
+    /// What was guessed, as text.
     pub notes: Vec<Note>,
 }
 
-/// Units seen in files, with how far their rarity speaks against them.
+/// Units seen in files, with the penalty for their rarity.
 const UNITS: [(&str, f64, f64); 7] = [
     ("metres", 1.0, 0.0),
     ("centimetres", 0.01, 0.0),
@@ -47,7 +47,7 @@ const UNITS: [(&str, f64, f64); 7] = [
     ("feet", 0.3048, 1.0),
 ];
 
-/// Above this doubt a unit gives no person at all.
+/// Above this penalty a unit does not give a human stature.
 const OUT_OF_THE_QUESTION: f64 = 8.0;
 
 /// Finds the unit and the up axis of a clip in its file's own numbers. What the file states (`unit_m`,
@@ -102,7 +102,7 @@ pub fn guess_space(
         )));
     }
     if doubt(stature_m) > OUT_OF_THE_QUESTION {
-        notes.push(Note::new(format!("a stature of {stature_m:.3} m is no person's: check the unit")));
+        notes.push(Note::new(format!("a stature of {stature_m:.3} m is not human: check the unit")));
     }
     let up = up_axis(clip, humanoid);
     let space = world_from_source.unwrap_or_else(|| {
@@ -121,15 +121,15 @@ pub fn guess_space(
     }
 }
 
-/// How far a stature is from a person's: a squared number of deviations on a logarithmic scale. People taller than
-/// 1.7 m thin out faster (2.3 m is as rare as it gets) than shorter ones, who include children and bodies without a neck.
+/// Penalty for a stature: the squared number of standard deviations on a logarithmic scale. People taller than 1.7 m
+/// thin out faster (2.3 m is as rare as it gets) than shorter ones, who include children and bodies without a neck.
 fn doubt(stature_m: f64) -> f64 {
     let ratio = libm::log((stature_m / 1.7).max(1e-9));
     let deviation = if ratio > 0.0 { 0.12 } else { 0.25 };
     (ratio / deviation) * (ratio / deviation)
 }
 
-/// The turn that brings an axis to Y, the shortest way; a half turn goes about X.
+/// The shortest rotation that brings an axis to Y; a half turn is about X.
 fn y_up_from(up: DVec3) -> DQuat {
     let turn = |axis, angle: f64| DQuat::from_axis_angle(axis, angle);
     if up == DVec3::Z {

@@ -1,4 +1,4 @@
-//! How tall a body stands.
+//! The stature of a body.
 
 use crate::pose::{leading_axis, quantile, sample_poses};
 use crate::{Clip, Humanoid, Side};

@@ -115,12 +115,12 @@ fn broken_acclaim_files_say_line_and_remedy() {
     let skeletons = [
         ("length 0.45", "length 0", "line 2: the unit of length is 0", "0.45"),
         ("angle deg", "angle gon", "line 3: the unit of angles is \"gon\"", "deg"),
-        ("order TX", "order QX", "line 5: \"QX\" is no degree of freedom", "write some of"),
+        ("order TX", "order QX", "line 5: \"QX\" is not a degree of freedom", "write some of"),
         ("dof rx rz", "dof rx rx", "line 15: \"rx\" is there twice", "once"),
         ("name b", "name a", "line 23: a second bone is called a", "its own name"),
         ("direction 1 0 0\n", "\n", "bone b has no direction", "add its `direction`"),
         ("direction 1 0 0", "direction 1 inf 0", "line 19: the bone's direction is \"inf\"", "repair"),
-        ("20 XYZ", "20 XYX", "line 14: \"XYX\" is no order of axes", "XYZ"),
+        ("20 XYZ", "20 XYX", "line 14: \"XYX\" is not an order of axes", "XYZ"),
         ("root a\n", "root a b\n", "bone b hangs from two places", "once"),
         ("a b\n", "b b\n", "bone b does not hang from the root", ":hierarchy"),
         ("a b\n", "b root\n", "bone root hangs from two places", "never the root"),
@@ -202,7 +202,7 @@ fn a_huge_stated_count_costs_nothing() {
     assert_eq!(parsed.clip.frames(), 3);
     assert!(parsed.notes[0].text.contains("4000000000") && parsed.notes[0].text.contains("3 complete"));
     assert_eq!(parsed.notes[0].line, Some(17));
-    assert!(complaint(&with(BVH, "Frames: 3", "Frames: 40000000000000000000")).contains("no count"));
+    assert!(complaint(&with(BVH, "Frames: 3", "Frames: 40000000000000000000")).contains("not a count"));
     let still = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n}\nMOTION\nFrames: 4000000000\nFrame Time: 0.1\n";
     assert_eq!(parse(still).clip.frames(), 0);
     assert!(complaint(&format!("{still}0\n")).contains("no joint has channels"));

@@ -1,8 +1,8 @@
-//! A body to look at.
+//! Capsules that make a body visible in a written file.
 
 use glam::DVec3;
 
-/// A capsule (a sphere where both ends meet) that stands for a limb in files that show a body.
+/// A capsule (a sphere if both ends coincide) that represents a limb in files that show a body.
 ///
 /// It is rigid to its joint: it shows where the joint is and how it turns, and nothing else.
 #[derive(Clone, Copy, Debug, PartialEq)]

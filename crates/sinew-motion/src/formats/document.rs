@@ -1,4 +1,4 @@
-//! What a reader hands on, and what a writer is given.
+//! What a reader returns, and what a writer takes.
 
 use super::amc::AmcDocument;
 use super::bvh::BvhDocument;
@@ -48,7 +48,7 @@ impl fmt::Display for Format {
     }
 }
 
-/// A file as its reader understood it.
+/// A parsed file.
 #[derive(Clone, Debug)]
 pub struct Parsed {
     /// The motion in the file's own units and axes: its translations are *not* metres yet.
@@ -63,7 +63,7 @@ pub struct Parsed {
     pub notes: Vec<Note>,
 }
 
-/// A file, kept so that it can be written again with nothing changed that was not asked for.
+/// The source document of a file, kept so that it can be written again with only the motion's values changed.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Document {
@@ -77,7 +77,7 @@ pub enum Document {
     Gltf(Box<super::gltf::GltfDocument>),
 }
 
-/// What a writer is given.
+/// What a writer takes.
 #[derive(Clone, Copy, Debug)]
 pub struct WriteJob<'a> {
     /// The motion to write, in metres and Y up.

@@ -1,4 +1,4 @@
-//! A motion file as users mean it: read whatever the format, in metres, Y up, with its body parts found.
+//! A motion file of any format, in metres and Y up, with its body parts found.
 
 use super::{BodyShape, Document, Format, Parsed, Source, WriteJob, amc, bvh, fbx, gltf};
 use crate::{Clip, Error, Humanoid, Limits, Note, Part, Place, SourceSpace, guess_space, stature};
@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
-/// The frame rate that readers, ours too, take an AMC to have \[Hz\].
+/// The frame rate that readers, ours too, assume for an AMC \[Hz\].
 const AMC_FPS: f64 = 120.0;
 
 /// How a file is to be read.
@@ -16,9 +16,9 @@ pub struct ReadOptions {
     pub skeleton: Option<PathBuf>,
     /// Length of one file unit \[m\]; otherwise what the file states, or a guess by stature.
     pub unit_m: Option<f64>,
-    /// Joints to take for parts, before anything is guessed.
+    /// Joints that are given parts, before anything is guessed.
     pub parts: Vec<(Part, String)>,
-    /// What the file may ask of us.
+    /// Limits of the reader.
     pub limits: Limits,
 }
 
@@ -33,9 +33,9 @@ pub struct MotionFile {
     pub clip: Clip,
     /// The file's unit and axes.
     pub space: SourceSpace,
-    /// Which joint is which part, or why the skeleton is no human body.
+    /// Which joint is which part, or why the skeleton is not a human body.
     pub humanoid: Result<Humanoid, Error>,
-    /// Standing height of the body \[m\]; 0 where it is none.
+    /// Standing height of the body \[m\]; 0 if it is not a human body.
     pub stature_m: f64,
     /// What was guessed, repaired or lost.
     pub notes: Vec<Note>,
@@ -43,7 +43,7 @@ pub struct MotionFile {
 }
 
 impl MotionFile {
-    /// Reads a motion file; the extension tells the format.
+    /// Reads a motion file; the extension decides the format.
     ///
     /// ```no_run
     /// use sinew_motion::formats::{MotionFile, ReadOptions};
@@ -53,8 +53,8 @@ impl MotionFile {
     /// ```
     ///
     /// # Errors
-    /// A file that cannot be opened, is broken or goes beyond the limits. A skeleton that is no human body is no error:
-    /// see [`MotionFile::humanoid`].
+    /// A file that cannot be opened, is invalid or exceeds the limits. A skeleton that is not a human body is not an
+    /// error: see [`MotionFile::humanoid`].
     pub fn read(path: &Path, options: &ReadOptions) -> Result<MotionFile, Error> {
         let format = format_of(path)?;
         let limits = &options.limits;
@@ -80,8 +80,8 @@ impl MotionFile {
         MotionFile::understood(PathBuf::new(), Format::Bvh, parsed, options)
     }
 
-    /// Reads a motion from memory; the name's extension tells the format. Nothing is read from a disk: a glTF must hold its
-    /// buffers itself, and an AMC, whose skeleton is another file, is refused.
+    /// Reads a motion from memory; the extension of `name` decides the format. No file is read: a glTF must contain its
+    /// buffers, and an AMC, whose skeleton is another file, is refused.
     ///
     /// # Errors
     /// As [`MotionFile::read`].
@@ -141,7 +141,7 @@ impl MotionFile {
     /// The human body in the file.
     ///
     /// # Errors
-    /// Where the skeleton is none: why.
+    /// Why the skeleton is not a human body.
     pub fn body_parts(&self) -> Result<&Humanoid, Error> {
         self.humanoid.as_ref().map_err(Clone::clone)
     }
@@ -150,7 +150,7 @@ impl MotionFile {
     /// with nothing changed but what differs in `clip`; `rows` gives for each frame of `clip` the frame of this file that it
     /// came from. `body` is what a glTF made anew shows.
     ///
-    /// A file appears whole or not at all; what could not be said in the format comes back as notes.
+    /// The file is written atomically; what the format cannot hold is returned as notes.
     ///
     /// # Errors
     /// A format that cannot be written, a motion that the format cannot hold, or a folder that cannot be written to.
@@ -218,28 +218,28 @@ fn format_of(path: &Path) -> Result<Format, Error> {
     })
 }
 
-/// The bytes of a file that is not larger than allowed.
+/// Reads a file up to the maximum size.
 ///
 /// # Errors
-/// What is no file, cannot be read, or is too large.
+/// It is not a file, cannot be read, or is too large.
 pub fn bytes_of(path: &Path, limits: &Limits) -> Result<Vec<u8>, Error> {
     let io = |error: std::io::Error| Error::io(path, &error);
     let file = fs::File::open(path).map_err(io)?;
     if !file.metadata().map_err(io)?.is_file() {
-        return Err(Error::new(Place::File, "this is no file", "name a motion file").in_file(path));
+        return Err(Error::new(Place::File, "it is not a file", "name a motion file").in_file(path));
     }
     let mut bytes = Vec::new();
-    // One more than allowed, so that a file that grows while it is read is caught too.
+    // One byte more than the maximum, so that a file that grows while it is read is detected too.
     file.take(limits.file_bytes + 1).read_to_end(&mut bytes).map_err(io)?;
     if bytes.len() as u64 > limits.file_bytes {
-        let problem = format!("larger than the {} bytes allowed", limits.file_bytes);
+        let problem = format!("larger than the maximum of {} bytes", limits.file_bytes);
         return Err(Error::new(Place::File, problem, "cut the motion into shorter files").in_file(path));
     }
     Ok(bytes)
 }
 
-/// Writes a file beside its place and moves it there, so that a full disk or a crash never leaves half of it, nor costs
-/// what was there before.
+/// Writes a file atomically: to a temporary file beside it, then renamed, so that a full disk or a crash never leaves a
+/// partial file or destroys the old one.
 ///
 /// # Errors
 /// When the folder cannot be written to.

@@ -1,7 +1,7 @@
-//! Motion files, read and written.
+//! Readers and writers of motion files.
 //!
-//! A reader turns bytes into a [`Parsed`]: the motion in the file's own units and axes, and a [`Document`] that
-//! remembers the file well enough to write it again with nothing changed but what the user asked for.
+//! A reader turns bytes into a [`Parsed`]: the motion in the file's own units and axes, and a [`Document`] from which
+//! the file can be written again with only the motion's values changed.
 
 pub mod amc;
 mod body_shape;

@@ -1,18 +1,18 @@
 //! The frame rate behind an animation's keys.
 
-/// Rates that people capture and animate at \[Hz\].
+/// Usual rates of capture and animation \[Hz\].
 const COMMON_HZ: [f64; 13] = [24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 72.0, 90.0, 100.0, 120.0, 150.0, 200.0, 240.0];
 /// How far a key may be from a frame \[frames\]: times are single precision, and some exporters round to milliseconds.
 const ON_FRAME: f64 = 0.07;
-/// Keys farther apart than this say nothing about frames \[s\].
+/// Keys farther apart than this do not show the frame rate \[s\].
 const SPARSE_SECS: f64 = 0.2;
 /// Rates of their own that keys may have, where straight lines lead from one to the next \[Hz\].
 const OWN_HZ: std::ops::RangeInclusive<f64> = 10.0..=1000.0;
 /// Fewer keys than this would cut the corners of curves \[Hz\].
 const CURVES_HZ: f64 = 24.0;
 
-/// The common rate that the keys have; else their own uniform rate; else the lowest common rate whose frames hold
-/// every key; `None` where they tell nothing.
+/// The common rate that the keys have; else their own uniform rate; else the lowest common rate whose frames hold every
+/// key; `None` if the keys do not show a rate.
 ///
 /// `tracks` holds the key times of each track \[s\], ascending; `curved` says that splines lead from key to key.
 pub(crate) fn rate_hz<'a>(tracks: impl Iterator<Item = &'a [f64]> + Clone, curved: bool) -> Option<f64> {

@@ -7,7 +7,7 @@ use crate::{Part, Side, Skeleton};
 
 pub(super) const SIDES: [Side; 2] = [Side::Left, Side::Right];
 
-/// The names of a skeleton, to be asked for joints.
+/// The parsed names of a skeleton, searchable by kind and side.
 pub(super) struct Names<'a> {
     skeleton: &'a Skeleton,
     names: Vec<Name>,
@@ -85,7 +85,7 @@ fn offer_leg(draft: &mut Draft, names: &Names, side: Side) {
     let named_lower = first(Kind::LowerLeg);
     let hip = first(Kind::Hips);
     let upper = named_upper.or([hip, leg].into_iter().find(|&upper| names.above(upper, named_lower.or(leg))).flatten());
-    // `Leg01, Leg02` says nothing about which is which: the shape decides.
+    // `Leg01, Leg02` does not tell which is which: the shape decides.
     let lower = named_lower.or(if names.above(upper, leg) { leg } else { None });
     let ankle = first(Kind::Ankle);
     let below = first(Kind::Foot);

@@ -1,8 +1,8 @@
-//! Limbs, trunk and head by the shape of the tree alone, for joints whose names say nothing.
+//! Limbs, trunk and head by the shape of the tree alone, for joints whose names are unknown.
 //!
-//! A body hangs together in one way only: at the pelvis two equal chains with two long bones each branch off beside the
-//! trunk, at the chest two more beside the neck. Which of two equal chains is the left one, names or the direction of
-//! the toes tell.
+//! A human body has one topology: at the pelvis two equal chains with two long bones each branch off beside the trunk,
+//! at the chest two more beside the neck. Names or the direction of the toes decide which of two equal chains is the
+//! left one.
 
 use super::draft::{common_ancestor, path};
 use crate::{Clip, Skeleton};
@@ -22,7 +22,7 @@ pub(super) struct Limb {
     lengths: [f64; 2],
 }
 
-/// What the shape says.
+/// The parts found by shape.
 #[derive(Clone, Debug)]
 pub(super) struct Shape {
     pub hips: usize,
@@ -158,10 +158,11 @@ pub(super) fn find(clip: &Clip) -> Result<Shape, String> {
         ));
     }
     let bones = |pair: &Pair| pair.limbs.iter().flat_map(|limb| limb.lengths).sum::<f64>();
-    // No body has more than a few; a hedge of a tree must not take for ever.
+    // No body has more than a few; a hostile tree with many must not take for ever.
     pairs.sort_by(|a, b| bones(b).total_cmp(&bones(a)));
     pairs.truncate(64);
-    // Arms hang at a joint below the one with the legs, in a branch that is no leg. Most bone in all wins.
+    // Arms hang at a joint below the one with the legs, in a branch that is no leg. The pair with the largest total
+    // bone length wins.
     let mut best: Option<(f64, usize, usize)> = None;
     for (at_legs, legs) in pairs.iter().enumerate() {
         for (at_arms, arms) in pairs.iter().enumerate() {

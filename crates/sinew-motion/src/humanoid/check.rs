@@ -1,4 +1,4 @@
-//! Whether a mapping can be a human body.
+//! Checks whether a mapping is a complete human body.
 
 use super::by_name::{Names, SIDES};
 use super::draft::Draft;
@@ -28,14 +28,14 @@ pub(super) fn error(problem: String, skeleton: &Skeleton) -> Error {
     )
 }
 
-/// Why neither names nor shape make a body.
+/// Why neither names nor shape give a body.
 pub(super) fn refusal(draft: &Draft, clip: &Clip, why: &str) -> Error {
     let skeleton = clip.skeleton();
     let problem = match limbs(draft, skeleton) {
         Err(problem) if Part::ALL.iter().any(|&part| draft.joint(part).is_some()) => {
             format!("{problem}, and by shape {why}")
         }
-        _ => format!("its names say nothing, and {why}"),
+        _ => format!("its names are unknown, and {why}"),
     };
     error(problem, skeleton)
 }
@@ -55,10 +55,10 @@ pub(super) fn limbs(draft: &Draft, skeleton: &Skeleton) -> Result<(), String> {
     let sided = LIMBS.iter().flat_map(|&part| [part, part.mirrored()]);
     let missing: Vec<&str> = sided.filter(|&part| draft.joint(part).is_none()).map(Part::name).collect();
     if !missing.is_empty() {
-        return Err(format!("no joint is known as {}", missing.join(", ")));
+        return Err(format!("no joint was found for {}", missing.join(", ")));
     }
     if draft.joint(Part::Head).or(draft.joint(Part::Neck)).is_none() {
-        return Err("no joint is known as head or neck".to_owned());
+        return Err("no joint was found for head or neck".to_owned());
     }
     chains(draft, skeleton)
 }
@@ -92,7 +92,7 @@ pub(super) fn all(draft: &Draft, skeleton: &Skeleton) -> Result<(), Error> {
     limbs(draft, skeleton).map_err(|problem| error(problem, skeleton))?;
     let chest = draft.joint(Part::UpperChest).or(draft.joint(Part::Chest));
     if draft.joint(Part::Hips).is_none() || chest.is_none() {
-        return Err(error("hips or chest cannot be told".to_owned(), skeleton));
+        return Err(error("hips or chest cannot be found".to_owned(), skeleton));
     }
     // One arm must not be part of the other, nor of a leg.
     for part in LIMBS.iter().flat_map(|&part| [part, part.mirrored()]) {

@@ -1,4 +1,4 @@
-//! A mapping in the making.
+//! A partial mapping.
 
 use super::Origin;
 use crate::{Part, Side, Skeleton};

@@ -1,7 +1,7 @@
 //! Which joint is which part of a human body.
 //!
-//! Names come first ([`names`], [`by_name`]); what they do not say is found by the shape of the tree ([`by_shape`]); the
-//! trunk is always found by what hangs from it ([`trunk`]); and in the end everything is checked ([`check`]).
+//! Names come first ([`names`], [`by_name`]); what they leave open is found by the shape of the tree ([`by_shape`]);
+//! the trunk is always found by what hangs from it ([`trunk`]); and in the end everything is checked ([`check`]).
 
 mod by_name;
 mod by_shape;
@@ -77,8 +77,8 @@ impl Humanoid {
     /// `overrides` name joints for parts, as the user wants them; they are taken before anything is guessed.
     ///
     /// # Errors
-    /// If the skeleton is no human body, or one whose parts cannot be told: the error says which part is missing, or what
-    /// speaks against it, and which joints there are to choose from.
+    /// The skeleton is not a human body, or its parts cannot be identified: the error says which part is missing or
+    /// what contradicts a body, and lists the joints to choose from.
     pub fn of(clip: &Clip, overrides: &[(Part, String)]) -> Result<Humanoid, Error> {
         let skeleton = clip.skeleton();
         let names = by_name::Names::new(skeleton);
@@ -121,7 +121,7 @@ impl Humanoid {
         Part::ALL.iter().filter_map(|&part| self.joint(part).map(|joint| (part, joint)))
     }
 
-    /// Joints that are no part: fingers, helpers, joints in the middle of the spine. Ascending.
+    /// Joints that are not parts: fingers, helpers, joints in the middle of the spine. Ascending.
     pub fn unmapped(&self) -> &[usize] {
         &self.unmapped
     }
@@ -176,7 +176,7 @@ impl Humanoid {
         &self.notes
     }
 
-    /// `Humanoid::of` has made sure that it is there.
+    /// `Humanoid::of` has checked that it exists.
     fn required(&self, part: Part) -> usize {
         self.joint(part).expect("a part that every humanoid has")
     }
@@ -188,14 +188,14 @@ fn overridden(clip: &Clip, overrides: &[(Part, String)]) -> Result<Draft, Error>
         let Some(joint) = clip.skeleton().find(name) else {
             return Err(Error::new(
                 Place::File,
-                format!("no joint is called {name:?}, which is to be {part}"),
+                format!("no joint is called {name:?}, which was given for {part}"),
                 format!("name one of {}", check::joint_names(clip.skeleton())),
             ));
         };
         if let Some(other) = draft.part_of(joint).filter(|other| other != part) {
             return Err(Error::new(
                 Place::File,
-                format!("joint {name:?} is to be both {other} and {part}"),
+                format!("joint {name:?} was given for both {other} and {part}"),
                 "give each part a joint of its own",
             ));
         }

@@ -1,8 +1,8 @@
-//! What a joint's name says about the body.
+//! Parses joint names of all known dialects into body parts.
 //!
-//! One normaliser takes a name apart (`mixamorig:LeftUpLeg`, `Bip01 L Thigh`, `upper_arm.L`, `lfemur`), one table says
-//! what the rest means. Names that mean different things in different dialects (`LeftShoulder`, `LeftLeg`, `LeftHip`)
-//! keep a kind of their own here; [`super::by_name`] decides by what stands around them.
+//! One normaliser splits a name (`mixamorig:LeftUpLeg`, `Bip01 L Thigh`, `upper_arm.L`, `lfemur`), one table gives the
+//! meaning of the rest. Ambiguous names, which mean different parts in different dialects (`LeftShoulder`, `LeftLeg`,
+//! `LeftHip`), have their own kind here; [`super::by_name`] decides by their neighbours.
 
 use crate::Side;
 use std::collections::BTreeMap;
@@ -40,7 +40,7 @@ pub(super) enum Kind {
     Foot,
     Toes,
     Tail,
-    /// Known, and no part of ours: fingers, face, twists, helpers.
+    /// Known, but not one of our parts: fingers, face, twists, helpers.
     Other,
 }
 
@@ -119,7 +119,7 @@ const STEMS: &[(Kind, &[&str])] = &[
     ),
 ];
 
-/// Words that make a joint no part of ours wherever they stand in its name.
+/// Words that mark a joint as not one of our parts, anywhere in its name.
 const HELPERS: &[&str] = &[
     "ik",
     "fk",
@@ -168,7 +168,7 @@ const HELPERS: &[&str] = &[
     "muscle",
 ];
 
-/// Words in front of a name that say nothing about the body.
+/// Prefixes without meaning for the body.
 const PREFIXES: &[&str] = &[
     "mixamorig",
     "bip",
@@ -200,10 +200,10 @@ const PREFIXES: &[&str] = &[
     "body",
 ];
 
-/// Words at the end of a name that say nothing about the body.
+/// Suffixes without meaning for the body.
 const SUFFIXES: &[&str] = &["joint", "jnt", "bone", "bind", "base", "jt", "skin"];
 
-/// A joint's name, understood.
+/// A parsed joint name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Name {
     /// The side that the name gives.
@@ -212,7 +212,7 @@ pub(super) struct Name {
     pub kind: Option<Kind>,
 }
 
-/// Reads the names of a whole skeleton: a first word that most of the names share is nobody's body part.
+/// Reads the names of a whole skeleton: a first word that most of the names share is a prefix.
 pub(super) fn read(names: &[&str]) -> Vec<Name> {
     let words: Vec<Vec<String>> = names.iter().map(|name| split(name)).collect();
     let mut first: BTreeMap<&str, usize> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Left and right: of chains that the shape found, and as a check on names.
+//! Left and right: assigned to chains found by shape, and checked for chains found by name.
 
 use super::by_name::{Names, SIDES};
 use super::by_shape::{Limb, Shape};
@@ -8,7 +8,7 @@ use crate::pose::{leading_axis, sample_poses};
 use crate::{Clip, Error, Note, Part, Side, Transform};
 use glam::DVec3;
 
-/// Offers the parts of a shape, each pair of limbs with its sides told by names, or else by geometry.
+/// Offers the parts of a shape; names, or else geometry, decide the sides of each pair of limbs.
 pub(super) fn offer(
     draft: &mut Draft,
     clip: &Clip,
@@ -26,7 +26,7 @@ pub(super) fn offer(
     ] {
         let Some(left_first) = left_first(pair, draft) else {
             return Err(check::error(
-                "left and right cannot be told: it has no toes and does not travel".to_owned(),
+                "left and right cannot be distinguished: it has no toes and does not travel".to_owned(),
                 clip.skeleton(),
             ));
         };
@@ -41,7 +41,7 @@ pub(super) fn offer(
     draft.offer(Part::Hips, Some(shape.hips).filter(|&hips| names.kind(hips).is_none()), Origin::Shape);
     draft.offer(Part::Head, shape.head, Origin::Shape);
     draft.offer(Part::Neck, shape.neck, Origin::Shape);
-    notes.push(Note::new("joint names do not tell all parts: some were guessed from the shape of the skeleton"));
+    notes.push(Note::new("joint names do not identify all parts: some were guessed from the shape of the skeleton"));
     Ok(())
 }
 
@@ -103,13 +103,13 @@ fn left_of(
     (travel.length() > size).then(|| vec![up.cross(travel).normalize(); poses.len()])
 }
 
-/// A remark when the parts called left stand on the right.
+/// A note if the parts called left are on the right.
 pub(super) fn doubt(humanoid: &Humanoid, clip: &Clip) -> Option<Note> {
     let poses = sample_poses(clip, 64);
     let feet = SIDES.map(|side| humanoid.leg(side)[2]);
     let toes = SIDES.map(|side| humanoid.toes(side));
     if toes.iter().any(Option::is_none) {
-        // The tip of a foot may be its sole, and travel may be backward: no ground for doubt.
+        // The tip of a foot may be its sole, and travel may be backward: neither contradicts the names.
         return None;
     }
     let left = left_of(clip, &poses, humanoid.hips(), humanoid.head(), feet, toes)?;
@@ -120,8 +120,6 @@ pub(super) fn doubt(humanoid: &Humanoid, clip: &Clip) -> Option<Note> {
         .filter(|(pose, left)| left.dot(pose[uppers[0]].translation - pose[uppers[1]].translation) > 0.0)
         .count();
     (agree * 4 < poses.len()).then(|| {
-        Note::new(
-            "the joints called left stand on the right of a body that faces where its toes point: is it mirrored?",
-        )
+        Note::new("the joints called left are on the right of a body that faces where its toes point: is it mirrored?")
     })
 }

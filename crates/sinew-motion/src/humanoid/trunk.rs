@@ -21,7 +21,7 @@ pub(super) fn find(draft: &mut Draft, skeleton: &Skeleton, names: &Names) -> Res
         return Err(check::error("upper arms or upper legs are missing".to_owned(), skeleton));
     };
     let top = draft.joint(Part::Head).or(draft.joint(Part::Neck));
-    let top = top.ok_or_else(|| check::error("neither head nor neck can be told".to_owned(), skeleton))?;
+    let top = top.ok_or_else(|| check::error("neither head nor neck can be found".to_owned(), skeleton))?;
     let above_legs = common_ancestor(skeleton, legs.0, legs.1).ok_or_else(|| apart("the legs"))?;
     let above_arms = common_ancestor(skeleton, arms.0, arms.1).ok_or_else(|| apart("the arms"))?;
     let mut chest = common_ancestor(skeleton, above_arms, top).ok_or_else(|| apart("arms and head"))?;
@@ -34,7 +34,7 @@ pub(super) fn find(draft: &mut Draft, skeleton: &Skeleton, names: &Names) -> Res
     }
     find_hips(draft, skeleton, names, above_legs, chest)?;
     let Some(hips) = draft.joint(Part::Hips) else {
-        return Err(check::error("the hips cannot be told".to_owned(), skeleton));
+        return Err(check::error("the hips cannot be found".to_owned(), skeleton));
     };
     let spine_chain = path(skeleton, hips, chest);
     if spine_chain.is_empty() {
@@ -60,7 +60,7 @@ fn find_hips(
     // A joint that is the chest and above the legs too would leave no trunk.
     let carries = |joint: &usize| *joint != chest && skeleton.is_ancestor(*joint, meeting);
     let named = names.all(Kind::Hips, None).filter(carries).last();
-    // With legs and spine on one unnamed joint, a root above it is a place in the world and no pelvis.
+    // With legs and spine on one unnamed joint, a root above it is a placement in the world, not a pelvis.
     let root = names.all(Kind::Root, None).filter(|joint| *joint == meeting).last();
     draft.offer(Part::Hips, named.or(root), Origin::Name);
     draft.offer(Part::Hips, Some(meeting).filter(carries), Origin::Shape);

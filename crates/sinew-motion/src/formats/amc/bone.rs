@@ -1,4 +1,4 @@
-//! What a bone's values mean.
+//! The degrees of freedom of a bone, and the transform that its values make.
 
 use crate::Transform;
 use crate::formats::text::{Axis, compose};
@@ -11,7 +11,7 @@ pub(super) enum Dof {
     Shift(Axis),
     /// Turn about a fixed axis \[deg or rad\].
     Turn(Axis),
-    /// Stretch of the bone: read and passed over.
+    /// Stretch of the bone: read and ignored.
     Length,
 }
 

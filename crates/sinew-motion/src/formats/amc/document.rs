@@ -1,10 +1,10 @@
-//! An AMC file, kept.
+//! The source document of an AMC file.
 
 use super::bone::Bone;
 use crate::formats::text::Span;
 use std::sync::Arc;
 
-/// An AMC file and its skeleton as they were: their text, and where the frames stand.
+/// The original text of an AMC file and its skeleton, and the position of each frame.
 #[derive(Clone, Debug)]
 pub struct AmcDocument {
     pub(super) bytes: Arc<[u8]>,

@@ -1,4 +1,4 @@
-//! Which skeleton belongs to a motion.
+//! Finds the ASF skeleton of an AMC motion.
 
 use crate::{Error, Place};
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ pub fn find_skeleton(amc_path: &Path, stated: Option<&Path>) -> Result<PathBuf, 
         if stated.is_file() {
             return Ok(stated.to_owned());
         }
-        let problem = format!("the skeleton {} is not there", stated.display());
+        let problem = format!("the skeleton {} does not exist", stated.display());
         return Err(Error::new(Place::File, problem, "correct the path given with --skeleton").in_file(amc_path));
     }
     let folder = match amc_path.parent() {
@@ -35,10 +35,10 @@ pub fn find_skeleton(amc_path: &Path, stated: Option<&Path>) -> Result<PathBuf, 
     }
     let tried: Vec<String> = names.iter().map(|name| format!("{name}.asf")).collect();
     let others = match beside.len() {
-        0 => "no other .asf is there".to_owned(),
-        count => format!("{count} other .asf files are there"),
+        0 => "there is no other .asf".to_owned(),
+        count => format!("there are {count} other .asf files"),
     };
-    let problem = format!("no skeleton is found: {} is not in {}, and {others}", tried.join(" or "), folder.display());
+    let problem = format!("no skeleton found: {} is not in {}, and {others}", tried.join(" or "), folder.display());
     Err(Error::new(Place::File, problem, "name the skeleton with --skeleton FILE.asf").in_file(amc_path))
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use std::fmt::Write as _;
 use std::io::Write;
 
-/// CMU's unit, which other programs know best: `length 0.45`.
+/// CMU's unit, the most widely supported: `length 0.45`.
 const LENGTH: f64 = 0.45;
 const UNIT_M: f64 = 0.0254 / LENGTH;
 const DECIMALS: usize = 6;

@@ -3,10 +3,10 @@
 //! # What is read
 //!
 //! The **skeleton** ([`read_skeleton`]): `:units` (`length`, `angle`), `:root` (`order`, `axis`, `position`,
-//! `orientation`), `:bonedata` (`name`, `direction`, `length`, `axis`, `dof`; limits and masses are passed over; the
-//! file is kept) and `:hierarchy`. Every bone becomes a joint at the bone's *start*, where its parent ends; bones of
-//! the root start at the root. A leaf's [tip](crate::Joint::tip) is its bone's end. Rest rotations are the identity:
-//! the zero pose is the rest pose, in the file's axes.
+//! `orientation`), `:bonedata` (`name`, `direction`, `length`, `axis`, `dof`; limits and masses are ignored; the file
+//! is kept) and `:hierarchy`. Every bone becomes a joint at the bone's *start*, where its parent ends; bones of the
+//! root start at the root. A leaf's [tip](crate::Joint::tip) is its bone's end. Rest rotations are the identity: the
+//! zero pose is the rest pose, in the file's axes.
 //!
 //! The **motion** ([`read`]): per frame a number, which need not start at 1, and a line per bone with the values of
 //! its `dof`. Turns about the axes named in `dof` follow one another about *fixed* axes in the order listed, so `rx ry
@@ -57,7 +57,7 @@ use std::sync::Arc;
 /// ```
 ///
 /// # Errors
-/// A file that is no ASF, is broken, or goes beyond the limits: the line, what is wrong, and what to do.
+/// A file that is not an ASF, is invalid, or exceeds the limits: the line, the problem, and the remedy.
 pub fn read_skeleton(bytes: &[u8], limits: &Limits) -> Result<Asf, Error> {
     skeleton::read(bytes, limits)
 }
@@ -76,8 +76,8 @@ pub fn read_skeleton(bytes: &[u8], limits: &Limits) -> Result<Asf, Error> {
 /// ```
 ///
 /// # Errors
-/// As [`read_skeleton`] (the message then says that the line is the skeleton's); a motion that is no AMC, is broken,
-/// belongs to another skeleton, or goes beyond the limits.
+/// As [`read_skeleton`] (the message then says that the line is the skeleton's); a motion that is not an AMC, is
+/// invalid, belongs to another skeleton, or exceeds the limits.
 pub fn read(amc: &[u8], asf: &[u8], limits: &Limits) -> Result<Parsed, Error> {
     let skeleton = read_skeleton(asf, limits).map_err(|error| {
         let line = if let Place::Line(line) = error.place() { format!(" line {line}") } else { String::new() };
@@ -113,8 +113,8 @@ pub fn write(out: &mut dyn Write, job: &WriteJob) -> Result<(), Error> {
     write_with(out, job, Losses::refused()).map(|_| ())
 }
 
-/// As [`write()`], but what the source's `dof` cannot hold is left out and told in the notes: a knee of one axis keeps
-/// the nearest angle about that axis.
+/// As [`write()`], but what the source's `dof` cannot hold is left out and reported in the notes: a knee with one axis
+/// gets the nearest angle about that axis.
 ///
 /// # Errors
 /// As [`write()`], losses excepted.

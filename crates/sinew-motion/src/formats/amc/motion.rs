@@ -7,7 +7,7 @@ use crate::formats::text::{
 use crate::{Clip, Error, Limits, Note, Place, Transform};
 use std::collections::BTreeMap;
 
-/// AMC does not say; this is what CMU and most Vicon systems of the format's time recorded at.
+/// AMC does not state its rate; CMU and most Vicon systems of the format's time recorded at this one.
 const FRAME_TIME_SECS: f64 = 1.0 / 120.0;
 
 /// What a motion file holds.
@@ -90,7 +90,7 @@ pub(super) fn read(bytes: &[u8], asf: &Asf, limits: &Limits, notes: &mut Vec<Not
     let missing = reader.present.iter().zip(&asf.bones).filter(|(present, bone)| !**present && !bone.dof.is_empty());
     let missing: Vec<&str> = missing.map(|(_, bone)| bone.name.as_str()).take(10).collect();
     if !missing.is_empty() {
-        notes.push(Note::new(format!("bones that the motion says nothing of stay at rest: {}", missing.join(", "))));
+        notes.push(Note::new(format!("bones without motion data stay at rest: {}", missing.join(", "))));
     }
     Ok(Motion { clip: reader.clip, degrees: reader.degrees, present: reader.present, frames: reader.frames })
 }
@@ -106,7 +106,7 @@ impl Reader<'_> {
             line_words_kept.extend(line_words(self.bytes, line));
             if let Some(&first) = line_words_kept.first() {
                 let result = self.line(&line_words_kept, first, (at, next), &mut frame);
-                // A file that was cut off ends in mid-line: then its last frame is not complete.
+                // A truncated file ends in the middle of a line: then its last frame is incomplete.
                 let cut = next == self.bytes.len() && !self.bytes.last().is_some_and(|&byte| is_break(byte));
                 match result {
                     Err(_) if cut && frame.is_some() && !self.frames.is_empty() => {
@@ -136,7 +136,7 @@ impl Reader<'_> {
     fn left_out(&self, frame: Option<Frame>, notes: &mut Vec<Note>) {
         if let Some(frame) = frame {
             let text = format!(
-                "the last frame ({}) is not complete: the file is cut off, and the frame left out",
+                "the last frame ({}) is incomplete: the file is truncated, and the frame left out",
                 frame.number
             );
             notes.push(Note::at_line(line_at(self.bytes, frame.start), text));
@@ -189,7 +189,7 @@ impl Reader<'_> {
         let number_of_frame = frame.number;
         let Some(&joint) = self.joints.get(first.of(bytes)) else {
             let problem =
-                format!("frame {number_of_frame} names {}, which is no bone of the skeleton", show(first.of(bytes)));
+                format!("frame {number_of_frame} names {}, which is not a bone of the skeleton", show(first.of(bytes)));
             return Err(fault(bytes, first.start, problem, "name the motion's own skeleton with --skeleton FILE.asf"));
         };
         let bone = &self.asf.bones[joint];

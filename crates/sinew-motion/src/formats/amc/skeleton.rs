@@ -14,7 +14,7 @@ pub struct Asf {
     pub skeleton: Skeleton,
     /// Length of one file unit \[m\]: 0.0254 / `length`; `None` where `:units` does not state it.
     pub unit_m: Option<f64>,
-    /// What was guessed or passed over.
+    /// What was guessed or ignored.
     pub notes: Vec<Note>,
     /// One per joint.
     pub(super) bones: Vec<Bone>,
@@ -105,7 +105,7 @@ impl Reader<'_> {
     fn section(&mut self, name: &str, line: &Line) {
         const KNOWN: [&str; 7] = ["version", "name", "units", "documentation", "root", "bonedata", "hierarchy"];
         if !KNOWN.contains(&name) {
-            let text = format!("the section :{} is passed over", show(name.as_bytes()).trim_matches('"'));
+            let text = format!("the section :{} is ignored", show(name.as_bytes()).trim_matches('"'));
             self.notes.push(Note::at_line(line_at(line.bytes, line.words[0].start), text));
         }
     }
@@ -229,7 +229,7 @@ impl Reader<'_> {
         }
         let find = |name: &[u8]| {
             std::str::from_utf8(name).ok().and_then(|name| self.by_name.get(name)).copied().ok_or_else(|| {
-                line.fault(format!("the hierarchy names {}, which is no bone", show(name)), "add it to :bonedata")
+                line.fault(format!("the hierarchy names {}, which is not a bone", show(name)), "add it to :bonedata")
             })
         };
         let parent = find(line.key())?;
@@ -248,7 +248,7 @@ impl Reader<'_> {
     fn finish(mut self, bytes: &[u8]) -> Result<Asf, Error> {
         let whole = |problem: &str, remedy: &str| Err(Error::new(Place::File, problem, remedy));
         if self.in_block {
-            return whole("the file ends inside a bone", "the file is cut off: export or copy it again");
+            return whole("the file ends inside a bone", "the file is truncated: export or copy it again");
         }
         if self.drafts.len() == 1 {
             return whole("the skeleton has no bones", "check that the file is an ASF skeleton");
@@ -313,7 +313,7 @@ fn degrees_of_freedom(line: &Line) -> Result<Vec<Dof>, Error> {
     let mut found = Vec::new();
     for word in line.rest() {
         let Some(dof) = Dof::of(word) else {
-            let problem = format!("{} is no degree of freedom", show(word));
+            let problem = format!("{} is not a degree of freedom", show(word));
             return Err(line.fault(problem, "write some of tx ty tz rx ry rz l"));
         };
         if found.contains(&dof) {
@@ -335,5 +335,5 @@ fn order(line: &Line, index: usize) -> Result<[Axis; 3], Error> {
     {
         return Ok([a, b, c]);
     }
-    Err(line.fault(format!("{} is no order of axes", show(word)), "write the three axes, such as XYZ"))
+    Err(line.fault(format!("{} is not an order of axes", show(word)), "write the three axes, such as XYZ"))
 }

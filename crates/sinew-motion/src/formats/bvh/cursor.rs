@@ -82,6 +82,6 @@ impl<'a> Cursor<'a> {
     /// The file ends where something should stand.
     pub(super) fn ended(&self, missing: &str) -> Error {
         let problem = format!("the file ends before {missing}");
-        fault(self.bytes, self.bytes.len(), problem, "the file is cut off: export or copy it again")
+        fault(self.bytes, self.bytes.len(), problem, "the file is truncated: export or copy it again")
     }
 }

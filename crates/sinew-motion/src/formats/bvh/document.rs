@@ -1,10 +1,10 @@
-//! A BVH file, kept.
+//! The source document of a BVH file.
 
 use super::columns::Columns;
 use crate::formats::text::Span;
 use std::sync::Arc;
 
-/// A BVH file as it was: its text, where its rows stand, and which columns belong to which joint.
+/// The original text of a BVH file, the position of its rows, and which columns belong to which joint.
 ///
 /// It holds the bytes and two numbers per row; the words of a row are found again when the row is written.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ impl BvhDocument {
         &self.bytes
     }
 
-    /// How many complete rows the file holds; not necessarily what its `Frames:` says.
+    /// Number of complete rows in the file; its `Frames:` may differ.
     pub fn rows(&self) -> usize {
         self.rows.len()
     }

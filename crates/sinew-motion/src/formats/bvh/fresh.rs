@@ -5,7 +5,7 @@ use crate::{Clip, Error};
 use glam::DVec3;
 use std::io::Write;
 
-/// Centimetres: what most programs take a BVH without a unit for.
+/// Centimetres: what most programs assume for a BVH, which has no unit.
 const UNITS_PER_M: f64 = 100.0;
 const DECIMALS: usize = 6;
 const ORDER: [Axis; 3] = [Axis::Z, Axis::X, Axis::Y];

@@ -149,7 +149,7 @@ fn channels(cursor: &mut Cursor, name: &str, first: usize) -> Result<Columns, Er
             return Err(cursor.ended(&format!("the channels of {name}")));
         };
         let Some(channel) = Channel::of(word.of(bytes)) else {
-            let problem = format!("CHANNELS of {name} names {}, which is no channel", show(word.of(bytes)));
+            let problem = format!("CHANNELS of {name} names {}, which is not a channel", show(word.of(bytes)));
             let remedy = "channels are Xposition, Yposition, Zposition, Xrotation, Yrotation, Zrotation; \
                           correct the names or their count";
             return Err(fault(bytes, word.start, problem, remedy));

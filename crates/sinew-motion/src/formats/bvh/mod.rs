@@ -14,8 +14,8 @@
 //!   root's `OFFSET`: added to it, a body stands at twice its height.)
 //! - `OFFSET` is the translation of [`Joint::rest`](crate::Joint::rest), whose rotation is the identity; an `End Site`
 //!   is the joint's [tip](crate::Joint::tip). Zero-length bones are bones.
-//! - **Rows count, not `Frames:`.** When they differ, the complete rows are taken and a note gives both numbers; a last
-//!   row that is cut off is left out with a note. Rows that are wrapped over several lines are read when their values
+//! - **Rows count, not `Frames:`.** When they differ, the complete rows are taken and a note gives both numbers; a
+//!   truncated last row is left out with a note. Rows that are wrapped over several lines are read when their values
 //!   add up to `Frames:`.
 //! - A number that is not finite or beyond 1e12, a frame time that is not positive, a decimal comma, a row of the
 //!   wrong length in mid-file, unbalanced braces: an error with the line and the remedy.
@@ -62,7 +62,7 @@ use std::sync::Arc;
 /// ```
 ///
 /// # Errors
-/// A file that is no BVH, is broken, or goes beyond the limits: the line, what is wrong, and what to do.
+/// A file that is not a BVH, is invalid, or exceeds the limits: the line, the problem, and the remedy.
 pub fn read(bytes: &[u8], limits: &Limits) -> Result<Parsed, Error> {
     let start = text_start(bytes, limits, "BVH")?;
     let mut notes = Vec::new();
@@ -98,7 +98,7 @@ pub fn write(out: &mut dyn Write, job: &WriteJob) -> Result<(), Error> {
     write_with(out, job, Losses::refused()).map(|_| ())
 }
 
-/// As [`write()`], but what the source has no channels for is left out and told in the notes.
+/// As [`write()`], but what the source has no channels for is left out and reported in the notes.
 ///
 /// # Errors
 /// As [`write()`], losses excepted.

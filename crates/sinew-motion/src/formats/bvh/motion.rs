@@ -48,7 +48,7 @@ fn frame_count(cursor: &mut Cursor) -> Result<(u64, Span), Error> {
     match std::str::from_utf8(text).ok().and_then(|text| text.parse().ok()) {
         Some(count) => Ok((count, word)),
         None => {
-            let problem = format!("Frames: is {}, which is no count", show(text));
+            let problem = format!("Frames: is {}, which is not a count", show(text));
             Err(fault(cursor.bytes, word.start, problem, "write the number of rows after `Frames:`"))
         }
     }
@@ -102,7 +102,7 @@ pub(super) fn rows(
             }
             if count < width && !rows.is_empty() && words(bytes, Span::new(next, bytes.len())).next().is_none() {
                 let text =
-                    format!("the last row has {count} of {width} values: the file is cut off, and the row left out");
+                    format!("the last row has {count} of {width} values: the file is truncated, and the row left out");
                 notes.push(Note::at_line(line_at(bytes, at), text));
                 break;
             }

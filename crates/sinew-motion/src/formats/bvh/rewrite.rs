@@ -43,7 +43,7 @@ pub(super) fn write(
     if verbatim {
         send(out, &bytes[at..])?;
     } else if let Some(last) = document.rows.last() {
-        // What follows the rows is kept, unless it is the rest of a row that was cut off.
+        // What follows the rows is kept, unless it is the rest of a truncated row.
         let tail = Span::new(last.end, bytes.len());
         if ended && words(bytes, tail).next().is_none() {
             send(out, tail.of(bytes))?;

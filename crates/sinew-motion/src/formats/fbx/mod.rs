@@ -1,12 +1,12 @@
 //! Autodesk FBX, read only, by way of [ufbx](https://github.com/ufbx/ufbx).
 //!
 //! The skeleton is made of the bones (limb nodes) and the nodes above them; without bones, of the animated nodes. The
-//! motion is the first animation stack's, evaluated at the rate of its keys, or the file's where they tell nothing.
-//! ufbx turns axes and units into Y up and metres. Joints get their places from ufbx's world transforms, so pivots,
-//! pre-rotations, scales and the inheritance modes of FBX are all in them; scale itself is left out.
+//! motion is the first animation stack's, evaluated at the rate of its keys, or at the file's rate where the keys have
+//! none. ufbx turns axes and units into Y up and metres. Joints get their positions from ufbx's world transforms, so
+//! pivots, pre-rotations, scales and the inheritance modes of FBX are all in them; scale itself is left out.
 //!
-//! ufbx takes sines from the platform's C library: the last bits of a clip read from FBX may differ between
-//! platforms.
+//! ufbx takes sines from the platform's C library: the last bits of a clip read from FBX may differ between platforms.
+//! This is the one exception to "same input, same bits on any machine".
 
 mod motion;
 mod skeleton;
@@ -14,9 +14,9 @@ mod skeleton;
 use super::{Document, Parsed};
 use crate::{Error, Limits, Note, Place};
 
-/// Memory that reading may take beside what grows with the file \[bytes\].
+/// Constant part of the maximum memory for reading \[bytes\].
 const BASE_MEMORY_BYTES: usize = 64 << 20;
-/// Bytes of memory per byte of the file: arrays are packed in it, at about 5 : 1.
+/// Maximum bytes of memory per byte of the file: its arrays are compressed, at about 5 : 1.
 const MEMORY_PER_BYTE: usize = 32;
 
 /// Reads an FBX file (binary or ASCII) from memory. Other files that it names are not opened.
@@ -29,10 +29,10 @@ const MEMORY_PER_BYTE: usize = 32;
 /// ```
 ///
 /// # Errors
-/// When the bytes are no FBX, pass the limits, or hold neither bones nor animated nodes.
+/// Bytes that are not FBX, exceed the limits, or hold neither bones nor animated nodes.
 pub fn read(bytes: &[u8], limits: &Limits) -> Result<Parsed, Error> {
     if bytes.len() as u64 > limits.file_bytes {
-        let problem = format!("{} bytes, more than the {} allowed", bytes.len(), limits.file_bytes);
+        let problem = format!("{} bytes, the maximum is {}", bytes.len(), limits.file_bytes);
         return Err(whole(problem, "export only the character, without media"));
     }
     let scene = ufbx::load_memory(bytes, options(bytes.len(), limits)).map_err(|error| refused(&error))?;
@@ -91,10 +91,10 @@ fn at_node(name: &str, problem: impl Into<String>, remedy: &str) -> Error {
     Error::new(Place::Element(format!("node {name:?}")), problem, remedy)
 }
 
-/// Reads any bytes as FBX under tight limits; what is read is finite. What the fuzz target `fbx` calls.
+/// Entry point of the fuzz target `fbx`: reads any bytes as FBX under tight limits; what is read is finite.
 ///
 /// # Panics
-/// If that does not hold.
+/// If a value is not finite.
 #[doc(hidden)]
 pub fn fuzz(bytes: &[u8]) {
     let limits = Limits { file_bytes: 1 << 21, joints: 200, depth: 32, frames: 500, values: 200_000, name_bytes: 128 };

@@ -10,13 +10,13 @@ use glam::{DMat3, DQuat, DVec3};
 const DEFAULT_HZ: f64 = 30.0;
 /// Rates that a file may state \[Hz\].
 const FILE_HZ: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
-/// Frames that a file of few keys may still ask for, and how many more each key may.
+/// Maximum number of frames: a constant part, and a part for each key.
 const FREE_FRAMES: usize = 20_000;
 const FRAMES_PER_KEY: usize = 1_000;
 /// Joints whose offset varies less than this share of the largest offset stand still in their parents.
 const STILL: f64 = 1e-5;
 
-/// When the motion is, and how often it is looked at.
+/// Time span and sampling rate of the motion.
 struct Span {
     start_secs: f64,
     length_secs: f64,

@@ -32,7 +32,7 @@ pub(super) fn rig(scene: &ufbx::Scene, limits: &Limits) -> Result<Vec<Bone>, Err
         return Err(whole("it has neither bones nor animated nodes", "export the armature with its animation"));
     }
     if count > limits.joints {
-        let problem = format!("{count} joints, more than the {} allowed", limits.joints);
+        let problem = format!("{count} joints, the maximum is {}", limits.joints);
         return Err(whole(problem, "export only the character"));
     }
     let mut bones: Vec<Bone> = Vec::with_capacity(count);
@@ -50,11 +50,11 @@ pub(super) fn rig(scene: &ufbx::Scene, limits: &Limits) -> Result<Vec<Bone>, Err
                 _ => node.element.name.to_string(),
             };
             if name.len() > limits.name_bytes {
-                let problem = format!("a name of {} bytes, more than the {} allowed", name.len(), limits.name_bytes);
+                let problem = format!("a name of {} bytes, the maximum is {}", name.len(), limits.name_bytes);
                 return Err(whole(problem, "shorten the names of the joints"));
             }
             if depth > limits.depth {
-                let problem = format!("joints nest deeper than the {} allowed", limits.depth);
+                let problem = format!("joints nest deeper than the maximum of {}", limits.depth);
                 return Err(at_node(&name, problem, "export only the character"));
             }
             bones.push(Bone { name, parent, node: index });

@@ -10,8 +10,8 @@ use std::rc::Rc;
 
 const EXPORT_AGAIN: &str = "the file is damaged or its exporter is wrong: export it again";
 
-/// A rotation key whose length is farther from 1 than this is no rotation. Exporters with quantised keys are within
-/// a hundredth.
+/// A rotation key whose length is farther from 1 than this is invalid. Exporters with quantised keys are within a
+/// hundredth.
 const UNIT_TOLERANCE: f64 = 0.05;
 
 /// What moves one node.
@@ -29,12 +29,12 @@ pub(super) fn animated(root: &Root) -> Result<Vec<bool>, Error> {
     for (index, channel) in animation.channels.iter().enumerate() {
         let name = || format!("animations[0].channels[{index}]");
         if channel.sampler >= animation.samplers.len() {
-            let problem = format!("sampler {} is not there", channel.sampler);
+            let problem = format!("sampler {} does not exist", channel.sampler);
             return Err(element(name(), problem, EXPORT_AGAIN));
         }
         let Some(node) = channel.target.node else { continue };
         let Some(slot) = animated.get_mut(node) else {
-            return Err(element(name(), format!("node {node} is not there"), EXPORT_AGAIN));
+            return Err(element(name(), format!("node {node} does not exist"), EXPORT_AGAIN));
         };
         *slot |= matches!(channel.target.path.as_str(), "translation" | "rotation" | "scale");
     }
@@ -73,7 +73,7 @@ pub(super) fn tracks(
         *slot = Some(track(root, data, channel.sampler, shape, &mut inputs)?);
     }
     if elsewhere > 0 {
-        notes.push(Note::new(format!("{elsewhere} channels move things that are no joints and are left out")));
+        notes.push(Note::new(format!("{elsewhere} channels move nodes that are not joints and are left out")));
     }
     Ok(tracks)
 }

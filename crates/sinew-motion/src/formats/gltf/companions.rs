@@ -1,4 +1,4 @@
-//! What moves beside the joints' rotations and translations, kept in time with them.
+//! Animation of other nodes and of scales, resampled to the times of the new frames.
 
 use super::animation;
 use super::append::Append;
@@ -10,7 +10,7 @@ use crate::Error;
 use serde_json::{Map, Value};
 use std::collections::BTreeSet;
 
-/// Samples the scales of all nodes, and the translations and rotations of the nodes that are no joints, at the times
+/// Samples the scales of all nodes, and the translations and rotations of the nodes that are not joints, at the times
 /// (in the file, \[s\]) that the new frames came from. `input` is the accessor of the new frames' times.
 pub(super) fn retime(
     file: &mut Map<String, Value>,

@@ -7,13 +7,13 @@ const HEADER_BYTES: usize = 12;
 const JSON: u32 = 0x4E4F_534A;
 const BIN: u32 = 0x004E_4942;
 
-/// More values than any rig needs; each costs tens of bytes once parsed, so a file of nothing but `[0,0,0,...` must
-/// stop here.
+/// Maximum number of JSON values, more than any rig needs; each costs tens of bytes once parsed, so a file of nothing
+/// but `[0,0,0,...` must stop here.
 const MAX_JSON_VALUES: usize = 2_000_000;
-/// glTF itself nests about ten deep; what `extras` hold may be deeper.
+/// Maximum nesting depth; glTF itself nests about ten deep, `extras` may be deeper.
 const DEEPEST_JSON: usize = 100;
 
-/// A glTF file taken apart; nothing is copied.
+/// The parts of a glTF file; nothing is copied.
 pub(super) struct Container<'a> {
     /// The JSON text.
     pub json: &'a [u8],
@@ -27,7 +27,7 @@ pub(super) struct Container<'a> {
     pub trailing_bytes: usize,
 }
 
-/// Takes a file apart and checks that its JSON is small and shallow enough to parse.
+/// Splits a file and checks that its JSON is small and shallow enough to parse.
 pub(super) fn open(bytes: &[u8]) -> Result<Container<'_>, Error> {
     let container = if bytes.starts_with(MAGIC) { open_glb(bytes)? } else { open_text(bytes) };
     let offset = container.json.as_ptr() as usize - bytes.as_ptr() as usize;
@@ -45,14 +45,14 @@ fn open_glb(bytes: &[u8]) -> Result<Container<'_>, Error> {
         Error::new(
             Place::Byte(at as u64),
             format!("the GLB ends at byte {}, before its content does", bytes.len()),
-            "the file is cut off: copy or export it again",
+            "the file is truncated: copy or export it again",
         )
     };
     let version = word(bytes, 4).ok_or_else(|| short(4))?;
     if version != 2 {
         return Err(Error::new(
             Place::Byte(4),
-            format!("GLB version {version}, where 2 is meant"),
+            format!("GLB version {version}; only version 2 is supported"),
             "export as glTF 2.0",
         ));
     }
@@ -68,7 +68,7 @@ fn open_glb(bytes: &[u8]) -> Result<Container<'_>, Error> {
             return Err(Error::new(
                 Place::Byte(at as u64),
                 format!("a chunk says that it has {chunk_bytes} bytes, more than follow"),
-                "the file is cut off or damaged: copy or export it again",
+                "the file is truncated or damaged: copy or export it again",
             ));
         };
         match kind {
@@ -125,7 +125,7 @@ fn check_json(json: &[u8], offset: usize) -> Result<(), Error> {
     Ok(())
 }
 
-/// Puts a GLB together, padding its chunks as glTF 2.0 section 4.4 asks. `None` when it passes 4 GiB.
+/// Assembles a GLB, with its chunks padded as glTF 2.0 section 4.4 requires. `None` if it exceeds 4 GiB.
 pub(super) fn join_glb(json: &[u8], bin: Option<&[u8]>, others: &[(u32, &[u8])]) -> Option<Vec<u8>> {
     let chunks =
         [(JSON, json)].into_iter().chain(bin.map(|bin| (BIN, bin))).chain(others.iter().copied()).collect::<Vec<_>>();

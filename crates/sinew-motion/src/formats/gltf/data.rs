@@ -1,4 +1,4 @@
-//! Numbers out of accessors, every bound checked before a byte is read or allocated.
+//! Reads numbers from accessors; every bound is checked before a byte is read or allocated.
 
 use super::element;
 use super::schema::{Accessor, Root};
@@ -17,7 +17,7 @@ const FLOAT: u32 = 5126;
 
 const DAMAGED: &str = "the file is damaged or its exporter is wrong: export it again";
 
-/// The file's buffers, loaded when first asked for, and what may still be read.
+/// The file's buffers, loaded on first use, and the remaining allowance of bytes and values.
 pub(super) struct Data<'a> {
     root: &'a Root,
     bin: Option<&'a [u8]>,
@@ -25,7 +25,7 @@ pub(super) struct Data<'a> {
     buffers: Vec<OnceCell<Cow<'a, [u8]>>>,
     /// Bytes that other files may still hold.
     bytes_left: Cell<u64>,
-    /// Values that may still be decoded: accessors can overlap, so that a small file asks for much.
+    /// Values that may still be decoded: accessors can overlap, so that a small file could expand to a large one.
     values_left: Cell<usize>,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Data<'a> {
         };
         let name = || format!("accessors[{index}]");
         let Some(accessor) = self.root.accessors.get(index) else {
-            let problem = format!("accessor {index} is not there, the file has {}", self.root.accessors.len());
+            let problem = format!("accessor {index} does not exist, the file has {}", self.root.accessors.len());
             return Err(element(user, problem, DAMAGED));
         };
         if accessor.shape != shape {
@@ -125,10 +125,10 @@ impl<'a> Data<'a> {
         Ok(())
     }
 
-    /// The bytes of `count` elements of `size` bytes in a view, checked to be there.
+    /// The bytes of `count` elements of `size` bytes in a view, bounds checked.
     fn span(&self, view: usize, offset: u64, count: u64, size: usize, user: &str) -> Result<Span<'_>, Error> {
         let Some(of) = self.root.buffer_views.get(view) else {
-            let problem = format!("buffer view {view} is not there, the file has {}", self.root.buffer_views.len());
+            let problem = format!("buffer view {view} does not exist, the file has {}", self.root.buffer_views.len());
             return Err(element(user, problem, DAMAGED));
         };
         let name = format!("bufferViews[{view}]");
@@ -166,7 +166,7 @@ impl<'a> Data<'a> {
     /// The bytes of a buffer.
     pub fn buffer(&self, index: usize, user: &str) -> Result<&[u8], Error> {
         let (Some(of), Some(cell)) = (self.root.buffers.get(index), self.buffers.get(index)) else {
-            let problem = format!("buffer {index} is not there, the file has {}", self.root.buffers.len());
+            let problem = format!("buffer {index} does not exist, the file has {}", self.root.buffers.len());
             return Err(element(user, problem, DAMAGED));
         };
         if let Some(bytes) = cell.get() {
@@ -187,7 +187,7 @@ impl<'a> Data<'a> {
         };
         if of.byte_length > bytes.len() as u64 {
             let problem = format!("says {} bytes, {} are there", of.byte_length, bytes.len());
-            return Err(element(name(), problem, "the file is cut off: copy or export it again"));
+            return Err(element(name(), problem, "the file is truncated: copy or export it again"));
         }
         let bytes = match bytes {
             Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[..of.byte_length as usize]),

@@ -1,4 +1,4 @@
-//! A glTF file, kept for writing it again.
+//! The source document of a glTF file.
 
 use super::rig::JointNode;
 use std::fmt;

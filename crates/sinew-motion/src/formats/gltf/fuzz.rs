@@ -1,12 +1,12 @@
-//! The whole way of a file, for fuzzing.
+//! Entry point for fuzzing: read, write and read again.
 
 use super::{read_slice, write};
 use crate::formats::{Format, Source, WriteJob};
 use crate::{Limits, SourceSpace};
 use glam::DQuat;
 
-/// Reads any bytes as glTF under tight limits; what is read is finite, and can be written anew, as it was and with a
-/// changed joint, and read again. What the fuzz target `gltf` calls; also of use for a corpus.
+/// Reads any bytes as glTF under tight limits; what is read is finite, and can be written unchanged and with a changed
+/// joint, and read again. Called by the fuzz target `gltf`; also useful on a corpus.
 ///
 /// # Panics
 /// If one of these claims does not hold.

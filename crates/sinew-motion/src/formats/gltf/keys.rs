@@ -18,7 +18,8 @@ pub(super) fn times(clip: &Clip, start_secs: f64) -> Result<Vec<f32>, Error> {
     Ok(times)
 }
 
-/// Rotations of a joint, each on the same side as the one before, so that no viewer takes the long way round.
+/// Rotations of a joint, each with the sign of the quaternion nearest to the one before, so that viewers interpolate
+/// along the shorter arc.
 pub(super) fn rotations(clip: &Clip, local: impl Fn(usize) -> DQuat) -> Vec<f32> {
     let mut before = DQuat::IDENTITY;
     let mut values = Vec::with_capacity(clip.frames() * 4);

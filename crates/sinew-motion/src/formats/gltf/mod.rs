@@ -1,14 +1,14 @@
 //! glTF 2.0, `.gltf` and `.glb`: read, written anew, and written again with another motion.
 //!
-//! The skeleton is made of the joints of the first skin (and of the skins of the same body), with the nodes above
-//! them that turn or move; without a skin, of the animated nodes. The motion is the first animation's, sampled at
-//! the rate of its keys. glTF is metres and Y up by definition, and what a file says otherwise (a fox of 150 units)
-//! is not this reader's to judge. Scales are worked into offsets; animated scales, morph targets and further
-//! animations are left out, and noted.
+//! The skeleton is made of the joints of the first skin (and of the skins of the same body), with the nodes above them
+//! that turn or move; without a skin, of the animated nodes. The motion is the first animation's, sampled at the rate
+//! of its keys. glTF is metres and Y up by definition; this reader does not correct files that use other units (a fox
+//! of 150 units). Scales are multiplied into offsets; animated scales, morph targets and further animations are left
+//! out, and noted.
 //!
-//! The JSON is read with our own few types, not those of the `gltf` crate: that crate takes out-of-range accessors
-//! for empty ones, accepts nodes that are their own ancestors, opens files anywhere on the disk, and refuses files
-//! for oddities in parts that have nothing to do with motion.
+//! The JSON is read with our own few types, not those of the `gltf` crate: that crate treats out-of-range accessors as
+//! empty, accepts nodes that are their own ancestors, opens files anywhere on the disk, and refuses files for oddities
+//! in parts that have nothing to do with motion.
 
 mod animation;
 mod append;

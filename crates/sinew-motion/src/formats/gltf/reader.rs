@@ -14,14 +14,14 @@ use crate::{Clip, Error, Limits, Note, Place, Transform};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Ways of packing buffers that we cannot unpack.
+/// Extensions for compressed buffers that we cannot decode.
 const PACKED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
-/// Rate where the keys tell nothing \[Hz\].
+/// Default rate if the keys have none \[Hz\].
 const DEFAULT_HZ: f64 = 60.0;
-/// Other animations named in the note.
+/// Maximum number of other animations named in the note.
 const MAX_NAMES: usize = 20;
-/// Frames that a file of few keys may still ask for, and how many more each key may: two keys an hour apart would
-/// otherwise turn a hundred bytes into a gigabyte.
+/// Maximum number of frames, a constant part and a part for each key: two keys an hour apart would otherwise turn a
+/// hundred bytes into a gigabyte.
 const FREE_FRAMES: usize = 20_000;
 const FRAMES_PER_KEY: usize = 1_000;
 
@@ -30,8 +30,8 @@ const FRAMES_PER_KEY: usize = 1_000;
 /// The motion is that of the first animation; see the [module](super) for what becomes of the rest.
 ///
 /// # Errors
-/// When the file cannot be read, is no glTF 2.0, passes the limits, or is damaged where the motion is; the error
-/// names the element (`accessors[3]`) or the byte.
+/// A file that cannot be read, is not glTF 2.0, exceeds the limits, or is invalid where the motion is; the error names
+/// the element (`accessors[3]`) or the byte.
 pub fn read(path: &Path, limits: &Limits) -> Result<Parsed, Error> {
     let bytes = uri::read_at_most(path, limits.file_bytes)
         .map_err(|problem| Error::new(Place::File, problem, "check the path and the file").in_file(path))?;
@@ -58,7 +58,7 @@ pub fn read(path: &Path, limits: &Limits) -> Result<Parsed, Error> {
 /// As [`read`].
 pub fn read_slice(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> Result<Parsed, Error> {
     if bytes.len() as u64 > limits.file_bytes {
-        let problem = format!("{} bytes, more than the {} allowed", bytes.len(), limits.file_bytes);
+        let problem = format!("{} bytes; the maximum is {}", bytes.len(), limits.file_bytes);
         return Err(Error::new(Place::File, problem, "export only the character"));
     }
     let container = container::open(bytes)?;
@@ -100,14 +100,14 @@ pub fn read_slice(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> Resul
 pub(super) fn parse(container: &Container<'_>) -> Result<Root, Error> {
     let root: Root = serde_json::from_slice(container.json).map_err(|error| {
         let place = if container.is_glb { Place::Element("JSON chunk".into()) } else { Place::Line(error.line()) };
-        Error::new(place, format!("no glTF: {error}"), "export as glTF 2.0")
+        Error::new(place, format!("not valid glTF: {error}"), "export as glTF 2.0")
     })?;
     if !root.asset.version.starts_with("2.") {
-        let problem = format!("glTF version {:?}, where 2.0 is meant", root.asset.version);
+        let problem = format!("glTF version {:?}; only version 2.0 is supported", root.asset.version);
         return Err(element("asset.version", problem, "export as glTF 2.0"));
     }
     if let Some(extension) = root.extensions_required.iter().find(|name| PACKED.contains(&name.as_str())) {
-        let problem = format!("its buffers are packed with {extension}");
+        let problem = format!("its buffers are compressed with {extension}");
         return Err(element("extensionsRequired", problem, "export without compression of animations"));
     }
     Ok(root)

@@ -23,7 +23,7 @@ pub(super) fn fits(clip: &Clip, source: &Source<'_>, document: &GltfDocument) ->
         && new.iter().zip(old).all(|(new, old)| new.parent == old.parent)
 }
 
-/// What became of one joint.
+/// What has changed for one joint.
 #[derive(Clone, Copy, Default)]
 struct Change {
     rotation: bool,
@@ -132,7 +132,7 @@ fn buffers(
     }
     for (index, (value, view)) in list(file, "bufferViews")?.iter_mut().zip(&root.buffer_views).enumerate() {
         let Some(start) = starts.get(view.buffer) else {
-            return Err(element(format!("bufferViews[{index}]"), "its buffer is not there", "export the file again"));
+            return Err(element(format!("bufferViews[{index}]"), "its buffer does not exist", "export the file again"));
         };
         value["buffer"] = json!(0);
         value["byteOffset"] = json!(start.saturating_add(view.byte_offset));
@@ -165,7 +165,7 @@ struct Edit<'a> {
     clip: &'a Clip,
     source: &'a Source<'a>,
     document: &'a GltfDocument,
-    /// Whether the frames are at other times than the file's, or others.
+    /// Whether the frames or their times differ from the file's.
     retimed: bool,
 }
 
@@ -242,7 +242,7 @@ pub(super) fn set_channel(
     if animations.is_empty() {
         animations.push(json!({ "name": "motion", "channels": [], "samplers": [] }));
     }
-    let broken = || element("animations[0]", "it is no animation", BUG);
+    let broken = || element("animations[0]", "it is not an animation", BUG);
     let animation = animations[0].as_object_mut().ok_or_else(broken)?;
     let channels = list(animation, "channels")?;
     let is_ours = |channel: &Value| channel["target"]["node"] == json!(node) && channel["target"]["path"] == *path;
@@ -268,8 +268,8 @@ pub(super) fn set_channel(
     Ok(())
 }
 
-/// An array of the file, made where it is missing.
+/// An array of the file, created if it is missing.
 fn list<'a>(of: &'a mut Map<String, Value>, key: &str) -> Result<&'a mut Vec<Value>, Error> {
     let value = of.entry(key).or_insert_with(|| Value::Array(Vec::new()));
-    value.as_array_mut().ok_or_else(|| element(key, "it is no array", BUG))
+    value.as_array_mut().ok_or_else(|| element(key, "it is not an array", BUG))
 }

@@ -1,4 +1,4 @@
-//! Nodes as a rigid skeleton: scales go into the offsets of what hangs below them.
+//! Nodes as a rigid skeleton: scales are multiplied into the offsets of the nodes below.
 
 use super::animation::NodeTracks;
 use super::element;
@@ -58,7 +58,7 @@ pub(super) fn rig(
 ) -> Result<Rig, Error> {
     let count = members.iter().filter(|member| **member).count();
     if count > limits.joints {
-        let problem = format!("{count} joints, more than the {} allowed", limits.joints);
+        let problem = format!("{count} joints; the maximum is {}", limits.joints);
         return Err(element("skins[0].joints", problem, "export only the character"));
     }
     let above = tree.at_or_above(members);
@@ -102,12 +102,12 @@ pub(super) fn rig(
         }
         depth_at[index] += 1;
         if depth_at[index] > limits.depth {
-            let problem = format!("joints nest deeper than the {} allowed", limits.depth);
+            let problem = format!("joints nest deeper than the maximum of {}", limits.depth);
             return Err(element(format!("nodes[{index}]"), problem, "export only the character"));
         }
         let name = joint_name(node, index);
         if name.len() > limits.name_bytes {
-            let problem = format!("a name of {} bytes, more than the {} allowed", name.len(), limits.name_bytes);
+            let problem = format!("a name of {} bytes; the maximum is {}", name.len(), limits.name_bytes);
             return Err(element(format!("nodes[{index}].name"), problem, "shorten the name"));
         }
         let rest = Transform::new(rigid.rotation, rigid.translation * offset_scale);
@@ -116,7 +116,8 @@ pub(super) fn rig(
         rig.joints.push(JointNode { node: index, offset_scale });
     }
     if scaled > 0 {
-        notes.push(Note::new(format!("the scales of {scaled} nodes are worked into the offsets of their children")));
+        notes
+            .push(Note::new(format!("the scales of {scaled} nodes are multiplied into the offsets of their children")));
     }
     Ok(rig)
 }
@@ -147,7 +148,7 @@ fn uniform(scale: DVec3) -> DVec3 {
     DVec3::splat(libm::cbrt((scale.x * scale.y * scale.z).abs()))
 }
 
-/// A node's transform, taken apart into `parent_from_node` without scale, and scale.
+/// A node's transform, decomposed into `parent_from_node` without scale, and scale.
 pub(super) fn local(node: &Node, index: usize, notes: &mut Vec<Note>) -> Result<(Transform, DVec3), Error> {
     let name = |field: &str| format!("nodes[{index}].{field}");
     if let Some(matrix) = node.matrix {
@@ -156,7 +157,7 @@ pub(super) fn local(node: &Node, index: usize, notes: &mut Vec<Note>) -> Result<
     let translation = DVec3::from(node.translation.unwrap_or_default());
     let scale = DVec3::from(node.scale.unwrap_or([1.0; 3]));
     let rotation = DQuat::from_array(node.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
-    // glTF numbers are single precision: what is beyond is as good as infinite.
+    // glTF numbers are single precision: larger ones count as infinite.
     let is_wild = |vector: DVec3| !vector.is_finite() || vector.abs().max_element() > f64::from(f32::MAX);
     if is_wild(translation) {
         return Err(element(name("translation"), format!("{translation} is out of range"), EXPORT_AGAIN));
@@ -202,7 +203,7 @@ fn from_matrix(matrix: &[f64; 16], index: usize, notes: &mut Vec<Note>) -> Resul
     let rotation = DQuat::from_mat3(&DMat3::from_cols(x, y, z)).normalize();
     let rigid = Transform::new(rotation, column(12));
     if !rigid.rotation.is_finite() || !scale.is_finite() {
-        return wrong("it cannot be taken apart");
+        return wrong("it cannot be decomposed");
     }
     Ok((rigid, scale))
 }

@@ -1,7 +1,7 @@
 //! The parts of a glTF file's JSON that say how something moves.
 //!
-//! Everything else (meshes, materials, extensions) is skipped in reading, so that it costs no memory and nothing odd
-//! in it can refuse a motion.
+//! Everything else (meshes, materials, extensions) is skipped in reading, so that it costs no memory and cannot make
+//! the reader refuse a motion.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;

@@ -6,7 +6,7 @@ use crate::Error;
 
 const EXPORT_AGAIN: &str = "the file is damaged or its exporter is wrong: export it again";
 
-/// Skins joined to the first one are looked for this many times over; each round adds at least one.
+/// Maximum number of rounds in which skins connected to the first one are searched; each round adds at least one.
 const MAX_ROUNDS: usize = 16;
 
 /// The nodes as the strict forest that glTF 2.0 section 3.5.2 demands.
@@ -25,7 +25,11 @@ pub(super) fn tree(root: &Root) -> Result<Tree, Error> {
         for &child in &node.children {
             let name = || format!("nodes[{index}].children");
             let Some(slot) = parent.get_mut(child) else {
-                return Err(element(name(), format!("node {child} is not there, the file has {count}"), EXPORT_AGAIN));
+                return Err(element(
+                    name(),
+                    format!("node {child} does not exist, the file has {count}"),
+                    EXPORT_AGAIN,
+                ));
             };
             if let Some(other) = slot.replace(index) {
                 let problem = format!("node {child} is also a child of node {other}");
@@ -76,7 +80,7 @@ pub(super) fn joints(root: &Root, tree: &Tree, animated: &[bool]) -> Result<Vec<
     let mut chosen = vec![false; root.nodes.len()];
     for (index, skin) in root.skins.iter().enumerate() {
         if let Some(joint) = skin.joints.iter().find(|&&joint| joint >= root.nodes.len()) {
-            let problem = format!("node {joint} is not there, the file has {}", root.nodes.len());
+            let problem = format!("node {joint} does not exist, the file has {}", root.nodes.len());
             return Err(element(format!("skins[{index}].joints"), problem, EXPORT_AGAIN));
         }
     }

@@ -1,4 +1,4 @@
-//! Where a buffer's bytes are: inside the file, or beside it and nowhere else.
+//! Resolves the URI of a buffer: data inside the file, or a file in its folder and nowhere else.
 
 use base64::Engine;
 use base64::alphabet::STANDARD;
@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
-/// Some exporters leave the padding away, so it may be missing.
+/// Some exporters leave out the padding.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &STANDARD,
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
@@ -24,8 +24,8 @@ pub(super) fn to_data_uri(bytes: &[u8]) -> String {
     uri
 }
 
-/// The bytes of a URI: problem and remedy where they cannot be had.
-pub(super) fn load(uri: &str, folder: Option<&Path>, most_bytes: u64) -> Result<Vec<u8>, (String, String)> {
+/// The bytes of a URI, or the problem and its remedy.
+pub(super) fn load(uri: &str, folder: Option<&Path>, max_bytes: u64) -> Result<Vec<u8>, (String, String)> {
     let fail = |problem: String, remedy: &str| Err((problem, remedy.to_owned()));
     if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {
         let Some((_, text)) = uri.split_once(";base64,") else {
@@ -35,7 +35,7 @@ pub(super) fn load(uri: &str, folder: Option<&Path>, most_bytes: u64) -> Result<
     }
     let Some(folder) = folder else {
         return fail(
-            format!("its bytes are in another file, {uri:?}, which cannot be reached from here"),
+            format!("its bytes are in another file, {uri:?}, which cannot be read from memory"),
             "give the file by its path, or export as .glb",
         );
     };
@@ -45,11 +45,11 @@ pub(super) fn load(uri: &str, folder: Option<&Path>, most_bytes: u64) -> Result<
             "put the file beside the glTF file and name it without a path, or export as .glb",
         );
     };
-    read_at_most(&path, most_bytes).or_else(|problem| fail(format!("{uri:?}: {problem}"), "check that file"))
+    read_at_most(&path, max_bytes).or_else(|problem| fail(format!("{uri:?}: {problem}"), "check that file"))
 }
 
-/// The path of a relative URI when it stays, links resolved, inside the folder. A file that does not exist is given
-/// as it is named, so that its absence gets told.
+/// The path of a relative URI if it stays, links resolved, inside the folder. A file that does not exist keeps its
+/// name, so that reading it reports the error.
 fn beside(uri: &str, folder: &Path) -> Option<PathBuf> {
     let name = percent_decoded(uri)?;
     if name.is_empty() || name.contains(['\\', ':', '\0']) {
@@ -66,7 +66,7 @@ fn beside(uri: &str, folder: &Path) -> Option<PathBuf> {
     }
 }
 
-/// The text with its `%20` and friends resolved.
+/// The text with percent-encoding (`%20`) decoded.
 fn percent_decoded(uri: &str) -> Option<String> {
     let bytes = uri.as_bytes();
     let mut decoded = Vec::with_capacity(bytes.len());
@@ -84,17 +84,17 @@ fn percent_decoded(uri: &str) -> Option<String> {
     String::from_utf8(decoded).ok()
 }
 
-/// A plain file's content, refused beyond a size.
-pub(super) fn read_at_most(path: &Path, most_bytes: u64) -> Result<Vec<u8>, String> {
+/// The content of a plain file up to a maximum size.
+pub(super) fn read_at_most(path: &Path, max_bytes: u64) -> Result<Vec<u8>, String> {
     let metadata = std::fs::metadata(path).map_err(|error| error.to_string())?;
     if !metadata.is_file() {
         return Err("not a plain file".into());
     }
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(|error| error.to_string())?;
-    file.take(most_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-    if bytes.len() as u64 > most_bytes {
-        return Err(format!("larger than the {most_bytes} bytes allowed"));
+    file.take(max_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    if bytes.len() as u64 > max_bytes {
+        return Err(format!("larger than the maximum of {max_bytes} bytes"));
     }
     Ok(bytes)
 }

@@ -39,8 +39,8 @@ use std::io::Write;
 /// ```
 ///
 /// # Errors
-/// When the clip is empty, not finite or beyond single precision, a shape is not one, `format` is no glTF, the file
-/// would pass 4 GiB, or `out` fails.
+/// The clip is empty, not finite or exceeds single precision, a shape is invalid, `format` is not glTF, the file would
+/// exceed 4 GiB, or `out` fails.
 pub fn write(out: &mut dyn Write, job: &WriteJob<'_>, format: Format, body: &[BodyShape]) -> Result<(), Error> {
     if !matches!(format, Format::Glb | Format::Gltf) {
         let problem = format!("the glTF writer is asked for {format}");
@@ -125,12 +125,12 @@ fn check_body(clip: &Clip, body: &[BodyShape]) -> Result<(), Error> {
     for (index, shape) in body.iter().enumerate() {
         let wrong = |problem: String| Err(element(format!("body[{index}]"), problem, "repair the body's shapes"));
         if shape.joint >= clip.skeleton().len() || shape.joint > usize::from(u16::MAX) {
-            return wrong(format!("joint {} is not there", shape.joint));
+            return wrong(format!("joint {} does not exist", shape.joint));
         }
         let ends_are_fine = shape.from.abs().max_element() < 1e6 && shape.to.abs().max_element() < 1e6;
         if !ends_are_fine || !(1e-6..1e6).contains(&shape.radius_m) {
             return wrong(format!(
-                "from {} to {} with radius {} m is no capsule",
+                "from {} to {} with radius {} m is not a valid capsule",
                 shape.from, shape.to, shape.radius_m
             ));
         }

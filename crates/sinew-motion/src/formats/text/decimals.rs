@@ -1,8 +1,8 @@
-//! How many decimals a file writes.
+//! The number of decimals that a file uses.
 
-/// Most decimals ever printed: more than a `f64` of everyday size holds.
+/// Maximum number of printed decimals: more than an `f64` of everyday size holds.
 const MOST: usize = 15;
-/// Decimals where the file does not show how many it wants.
+/// Default number of decimals if the file does not show its precision.
 const DEFAULT: usize = 6;
 
 /// The decimals of one kind of values (positions, rotations) of a file, gathered word by word.
@@ -30,14 +30,14 @@ impl Decimals {
         }
     }
 
-    /// How many decimals to print: the most that the file uses. Files that use exponents get at least six, and so
-    /// do files that show whole numbers or a bare `.0`, which is no choice of precision.
+    /// The number of decimals to print: the maximum that the file uses. Files with exponents get at least six, and so
+    /// do files with whole numbers or a bare `.0`, which do not show a precision.
     pub(crate) fn count(self) -> usize {
         if self.exponents || self.most < 2 { self.most.clamp(DEFAULT, MOST) } else { self.most.min(MOST) }
     }
 }
 
-/// Appends the value, or the file's own word where that is as near to it as so many decimals come.
+/// Appends the value, or the file's own text if it is equal to the value at this precision.
 pub(crate) fn replace(text: &mut Vec<u8>, word: &[u8], old: f64, value: f64, decimals: usize) {
     let half_a_digit = (0..decimals).fold(0.5, |digit, _| digit / 10.0);
     if (value - old).abs() < half_a_digit {
@@ -47,7 +47,7 @@ pub(crate) fn replace(text: &mut Vec<u8>, word: &[u8], old: f64, value: f64, dec
     }
 }
 
-/// The value with so many decimals, and no minus before zero.
+/// The value with this number of decimals, without a minus before zero.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     let printed = format!("{value:.decimals$}");
     match printed.strip_prefix('-') {

@@ -1,4 +1,4 @@
-//! Rotations as angles about coordinate axes, and back on the branch nearest to given angles.
+//! Euler angles: composed to a rotation, and extracted on the branch nearest to given angles.
 
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::PI;
@@ -106,7 +106,7 @@ fn distance(radians: [f64; 3], reference: [f64; 3]) -> f64 {
 /// from what is left when it is taken off, so that its error at gimbal lock, where only the sum or difference of the
 /// outer angles is known, goes into the third.
 fn three(rotation: DQuat, axes: [Axis; 3], reference: [f64; 3]) -> [f64; 3] {
-    // Below this cosine of the middle angle the first angle is noise: the reference's is as good.
+    // Below this cosine of the middle angle (gimbal lock) the first angle is noise: the reference's is as good.
     const LOCKED: f64 = 1e-8;
     let [a, b, c] = axes.map(Axis::index);
     let sign = if (a + 1) % 3 == b { 1.0 } else { -1.0 };

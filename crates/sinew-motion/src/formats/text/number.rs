@@ -1,15 +1,16 @@
-//! Numbers from text: finite, or an error that says what is wrong with them.
+//! Parses finite numbers; anything else (NaN, infinite, too large, malformed) is an error that names the problem.
 
 use super::{Span, fault, show};
 use crate::Error;
 
-/// Beyond this no length, angle or time of a motion file makes sense, and products of such numbers could overflow.
+/// Maximum absolute value: no length, angle or time of a motion file is larger, and products of larger numbers could
+/// overflow.
 const LARGEST: f64 = 1e12;
 
 /// The number in a word. `what` names it for the message, such as "OFFSET of Hips".
 ///
 /// # Errors
-/// A word that is no number, a decimal comma, `nan`, `inf`, and anything beyond 1e12.
+/// A word that is not a number, a decimal comma, `nan`, `inf`, and anything beyond 1e12.
 pub(crate) fn number(bytes: &[u8], word: Span, what: impl FnOnce() -> String) -> Result<f64, Error> {
     let token = word.of(bytes);
     let parsed = std::str::from_utf8(token).ok().and_then(|text| text.parse::<f64>().ok());

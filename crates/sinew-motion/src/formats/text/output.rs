@@ -1,13 +1,13 @@
-//! What the writers share.
+//! Shared parts of the text writers.
 
 use crate::formats::{Source, WriteJob};
 use crate::{Clip, Error, Note, Place};
 use std::collections::BTreeMap;
 use std::io::Write;
 
-/// Largest rotation that may be lost without a word \[rad\]: below the last digit of every file.
+/// Maximum rotation that may be lost without a note \[rad\]: below the last digit of every file.
 const UNSEEN_RAD: f64 = 1e-5;
-/// Largest translation that may be lost without a word \[m\].
+/// Maximum translation that may be lost without a note \[m\].
 const UNSEEN_M: f64 = 1e-6;
 
 /// Writes bytes.
@@ -21,7 +21,7 @@ pub(crate) fn send(out: &mut dyn Write, bytes: &[u8]) -> Result<(), Error> {
     })
 }
 
-/// Checks that a clip fits the file that it is to be written into: joints, rows, finite values.
+/// Checks that a clip matches the file into which it is written: joints, rows, finite values.
 pub(crate) fn check_source(job: &WriteJob, source: &Source, joints: usize, rows: usize) -> Result<(), Error> {
     let remedy = "write the motion without its source, as a new file";
     let complain = |problem: String| Err(Error::new(Place::File, problem, remedy));
@@ -48,7 +48,7 @@ pub(crate) fn check_finite(clip: &Clip) -> Result<(), Error> {
         Some((frame, joint)) => Err(Error::new(
             Place::File,
             format!("frame {frame} of joint {} is not finite", clip.skeleton().joints()[joint].name),
-            "the motion that was computed is broken; nothing was written",
+            "the computed motion is invalid; nothing was written",
         )),
     }
 }
@@ -71,14 +71,14 @@ pub(crate) fn is_root(clip: &Clip, joint: usize) -> bool {
     clip.skeleton().joints()[joint].parent.is_none()
 }
 
-/// The error for a quaternion that is no rotation.
+/// The error for an invalid quaternion.
 pub(crate) fn no_rotation(clip: &Clip, frame: usize, joint: usize) -> Error {
     let name = &clip.skeleton().joints()[joint].name;
     let problem = format!("frame {frame} of joint {name} has a quaternion of length zero");
-    Error::new(Place::File, problem, "the motion that was computed is broken")
+    Error::new(Place::File, problem, "the computed motion is invalid")
 }
 
-/// What the channels of a file cannot hold of a motion: refused, or gathered per joint.
+/// The part of a motion that the channels of a file cannot hold: an error, or collected per joint.
 pub(crate) struct Losses {
     refuse: bool,
     /// Per joint: the largest rotation \[rad\] and translation \[m\] lost.
@@ -96,7 +96,7 @@ impl Losses {
         Losses { refuse: false, worst: BTreeMap::new() }
     }
 
-    /// A joint turns by so much \[rad\] that the file has no channel for.
+    /// Reports a rotation of a joint \[rad\] for which the file has no channel.
     pub(crate) fn rotation(&mut self, clip: &Clip, frame: usize, joint: usize, lost_rad: f64) -> Result<(), Error> {
         if lost_rad <= UNSEEN_RAD {
             return Ok(());
@@ -117,7 +117,7 @@ impl Losses {
         ))
     }
 
-    /// A joint moves by so much \[m\] that the file has no channel for.
+    /// Reports a translation of a joint \[m\] for which the file has no channel.
     pub(crate) fn translation(&mut self, clip: &Clip, frame: usize, joint: usize, lost_m: f64) -> Result<(), Error> {
         if lost_m <= UNSEEN_M {
             return Ok(());

@@ -49,7 +49,7 @@ pub(crate) fn fault(bytes: &[u8], at: usize, problem: impl Into<String>, remedy:
     Error::new(Place::Line(line_at(bytes, at)), problem, remedy)
 }
 
-/// A piece of a file for a message: quoted, and cut when it is long.
+/// A piece of a file for a message: quoted, and truncated if it is long.
 pub(crate) fn show(piece: &[u8]) -> String {
     const LONGEST: usize = 40;
     let cut = &piece[..piece.len().min(LONGEST)];
@@ -94,7 +94,7 @@ pub(crate) fn words(bytes: &[u8], range: Span) -> impl Iterator<Item = Span> + '
 /// Where the text starts: after a UTF-8 byte order mark, if there is one.
 ///
 /// # Errors
-/// A file that is empty, longer than the limit, or UTF-16.
+/// A file that is empty, exceeds the maximum size, or is UTF-16.
 pub(crate) fn text_start(bytes: &[u8], limits: &Limits, format: &str) -> Result<usize, Error> {
     if bytes.len() as u64 > limits.file_bytes {
         return Err(Error::new(

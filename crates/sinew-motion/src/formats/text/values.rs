@@ -1,4 +1,4 @@
-//! The limits that both text formats hold a file to.
+//! Limits of both text formats.
 
 use crate::{Error, Limits, Place};
 
@@ -22,11 +22,11 @@ pub(crate) fn too_many_frames(limits: &Limits, frames: usize, channels: usize, j
     Err(Error::new(Place::File, problem, format!("cut the motion into shorter files or raise the limit `{name}`")))
 }
 
-/// What is wrong when a skeleton has more joints than the limits allow, or nests them deeper.
+/// The problem if a skeleton has more joints than the limits allow, or nests them deeper.
 pub(crate) fn too_many_joints(limits: &Limits, joints: usize, depth: usize) -> Option<(String, &'static str)> {
     if joints > limits.joints {
         let problem = format!("the skeleton has more than {} joints", limits.joints);
-        Some((problem, "remove joints that no body needs or raise the limit `joints`"))
+        Some((problem, "remove unused joints or raise the limit `joints`"))
     } else if depth > limits.depth {
         let problem = format!("joints are nested more than {} deep", limits.depth);
         Some((problem, "check for missing closing braces, or raise the limit `depth`"))
