@@ -4,7 +4,7 @@
 //! the motion came on. A [`humanoid::Reduction`] turns a source skeleton's pose into that body's pose, and an answer of
 //! the body back into a deviation of the source's own joints.
 //!
-//! This crate knows nothing of time stepping, worlds or files.
+//! This crate does not know time stepping, worlds or files.
 
 pub mod dynamics;
 pub mod humanoid;

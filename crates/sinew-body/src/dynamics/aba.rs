@@ -1,7 +1,7 @@
 //! Forward dynamics by articulated bodies (Featherstone 1983; 2008, 7.3).
 //!
-//! The textbook carries velocity terms through the articulated recursion. Here they are dealt with first: one outward
-//! pass gives the wrench that every link would need if all q̈ were zero. What remains, M q̈ = τ − h, is linear, and the
+//! The textbook carries velocity terms through the articulated recursion. Here they are handled first: one outward pass
+//! gives the wrench that every link would need if all q̈ were zero. What remains, M q̈ = τ − h, is linear, and the
 //! recursion below solves it without forming M: inwards, each axis is eliminated from the inertia and the wrench that
 //! its parent feels (a rank-one update); outwards, the accelerations are substituted back. About one common reference
 //! point inertias and wrenches pass from child to parent unchanged.
@@ -12,8 +12,9 @@ use super::kinematics::{world_axes, world_inertia};
 use super::rnea::link_wrenches;
 use super::{Accelerations, Base, Inertia, M3, PointForce, Real, State, Tree, V3, Workspace, Wrench};
 
-/// Inertia of a link with everything that hangs on it free to move: the map from the acceleration (α, a) of the link
-/// at the reference point to the wrench (n, f) it takes, n = angular·α + coupling·a, f = couplingᵀ·α + linear·a.
+/// Articulated-body inertia: that of a link with everything attached to it free to move: the map from the acceleration
+/// (α, a) of the link at the reference point to the wrench (n, f) it takes, n = angular·α + coupling·a, f = couplingᵀ·α
+/// + linear·a.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Articulated<S: Real> {
     angular: M3<S>,
@@ -79,18 +80,18 @@ pub(super) struct Elimination<S: Real> {
     u: Wrench<S>,
     /// 1 / (axis · u).
     inverse_d: S,
-    /// Generalised force that is left to accelerate the axis.
+    /// Generalised force that remains to accelerate the axis.
     force: S,
 }
 
-/// The second derivatives of the coordinates (\[rad/s²\] or \[m/s²\]) that generalised forces `tau` and forces from
-/// outside produce: q̈ = M⁻¹ (τ − h + Jᵀ f). The state's relative accelerations are those at q̈ = 0, as
+/// The second derivatives of the coordinates (\[rad/s²\] or \[m/s²\]) that generalised forces `tau` and external forces
+/// produce: q̈ = M⁻¹ (τ − h + Jᵀ f). The state's relative accelerations are those at q̈ = 0, as
 /// [`Coordinates`](super::Coordinates) sets them.
 ///
-/// A degree of freedom that moves no mass makes the result infinite or not a number.
+/// A degree of freedom that moves no mass makes the result infinite or NaN.
 ///
 /// # Panics
-/// If anything has been made for another tree, or a force acts on a link that is not there.
+/// If an argument was made for another tree, or a force acts on a link that does not exist.
 pub fn aba<S: Real>(
     tree: &Tree<S>,
     base: &Base<S>,

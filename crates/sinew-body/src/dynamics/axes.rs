@@ -5,9 +5,9 @@ use super::{M3, Real, V3, Wrench};
 /// Up to three twists side by side: for each axis of a joint the angular velocity, and the velocity of the point at
 /// the common reference, per unit speed of that axis (the matrix S of Featherstone 2008, 3.5).
 ///
-/// Stored by component: column k of `angular` holds the k-th world component of all three axes. So what belongs to one
-/// joint's axes is computed by one vector instruction. Axes that a joint does not have are zero. Momenta have the same
-/// shape, see [`Inertia::momentum`](super::Inertia::momentum).
+/// Stored by component: column k of `angular` holds the k-th world component of all three axes. So all axes of one
+/// joint are computed by one vector instruction. Axes that a joint does not have are zero. Momenta have the same shape,
+/// see [`Inertia::momentum`](super::Inertia::momentum).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Axes<S: Real> {
     /// \[rad/s per unit speed\].

@@ -1,8 +1,8 @@
-//! What a tree stands on.
+//! The base of a tree: pose, motion and gravity.
 
 use super::{M3, Real, V3};
 
-/// Pose and motion of the frame that a tree's first links hang from, and gravity.
+/// Pose and motion of the frame to which a tree's first links are attached, and gravity.
 ///
 /// For a whole character this is the world at rest. For part of one, such as the body above the pelvis, it is the
 /// link below with its motion prescribed: since a prescribed motion passes nothing back, the torques above are exact.

@@ -12,7 +12,7 @@ pub enum Letter {
     Z,
 }
 
-/// What a joint's coordinates mean.
+/// The type of a joint: the meaning of its coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Joint<S: Real> {
     /// No coordinates: the motion is set by hand, or never changes.
@@ -51,7 +51,7 @@ impl<S: Real> Joint<S> {
     }
 }
 
-/// A joint that does not fit its link.
+/// A joint that does not match its link.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CoordinatesError {
     /// Not one joint per link.
@@ -93,14 +93,14 @@ pub struct Coordinates<S: Real> {
     velocities: usize,
 }
 
-/// Angles whose sines are computed together. More coordinates than this are done in several goes.
+/// Number of angles whose sines are computed together; more coordinates are processed in batches.
 const TOGETHER: usize = 64;
 
 impl<S: Real> Coordinates<S> {
-    /// Fits joints to a tree.
+    /// Assigns joints to a tree.
     ///
     /// # Errors
-    /// When a joint's kind or number of axes is not its link's.
+    /// The number of joints is wrong, or a joint's kind or number of axes is not its link's.
     pub fn new(tree: &Tree<S>, joints: Vec<Joint<S>>) -> Result<Coordinates<S>, CoordinatesError> {
         if joints.len() != tree.links().len() {
             return Err(CoordinatesError::Count { joints: joints.len(), links: tree.links().len() });
@@ -115,7 +115,7 @@ impl<S: Real> Coordinates<S> {
         Ok(Coordinates { joints, positions, velocities })
     }
 
-    /// How many numbers q has.
+    /// Length of q.
     pub fn positions(&self) -> usize {
         self.positions
     }
@@ -129,7 +129,7 @@ impl<S: Real> Coordinates<S> {
     /// q̈ = 0. Joints without coordinates are left as they are.
     ///
     /// # Panics
-    /// If the lengths do not fit.
+    /// If the lengths do not match.
     pub fn set(&self, tree: &Tree<S>, q: &[S], velocities: &[S], state: &mut State<S>) {
         assert!(q.len() == self.positions && velocities.len() == self.velocities, "one number per coordinate");
         assert!(
@@ -181,10 +181,10 @@ impl<S: Real> Coordinates<S> {
         }
     }
 
-    /// Moves q along constant velocities for a time \[s\]; a quaternion stays one.
+    /// Integrates q at constant velocities for a time \[s\]; quaternions stay normalised.
     ///
     /// # Panics
-    /// If the lengths do not fit.
+    /// If the lengths do not match.
     pub fn advance(&self, velocities: &[S], secs: S, q: &mut [S]) {
         assert!(q.len() == self.positions && velocities.len() == self.velocities, "one number per coordinate");
         let (mut at, mut dof) = (0, 0);

@@ -10,7 +10,7 @@ use super::{Axes, Base, Inertia, MassMatrix, Real, State, Tree, V3, Workspace, W
 /// The joint-space inertia matrix. Of the base and the state only the pose is read.
 ///
 /// # Panics
-/// If anything has been made for another tree.
+/// If an argument was made for another tree.
 pub fn crba<S: Real>(
     tree: &Tree<S>,
     base: &Base<S>,
@@ -53,7 +53,7 @@ pub(super) fn fill_rows<S: Real>(
         return;
     }
     let [a, b, c] = composite.momentum(&axes[link + 1]).each();
-    // Spelled out: an index into the three would send them through memory.
+    // Unrolled: an index into the three would send them through memory.
     fill_row(nodes, link, 0, a, axes, mass);
     if node.axes > 1 {
         fill_row(nodes, link, 1, b, axes, mass);

@@ -1,4 +1,4 @@
-//! How mass is spread, in ten numbers.
+//! Rigid-body inertia, in ten numbers.
 
 use std::ops::AddAssign;
 
@@ -74,7 +74,7 @@ impl<S: Real> AddAssign<&Inertia<S>> for Inertia<S> {
     }
 }
 
-/// Force and moment that a body needs for its motion (Newton, Euler), about the reference.
+/// Force and moment required by a body's motion (Newton, Euler), about the reference.
 ///
 /// `gradient` is ∂ẍ/∂x, the matrix \[α\]× + \[ω\]×\[ω\]× that gives the acceleration of any of the body's points. With
 /// it Euler's equation I α + ω × I ω reads ∫x × gradient·x dm = Σₖ Jₖ × gradientₖ, J the second moment.

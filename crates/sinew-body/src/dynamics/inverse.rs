@@ -6,7 +6,7 @@ use super::kinematics::{place, place_base, world_axes, world_mass};
 use super::rnea::{joint_load, put, take_forces};
 use super::{Base, Inertia, MassMatrix, PointForce, Real, State, Tree, V3, Workspace, Wrench};
 
-/// What [`inverse`] finds.
+/// The result of [`inverse`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inverse<S: Real> {
     /// Per degree of freedom the generalised force \[N m or N\].
@@ -19,7 +19,7 @@ pub struct Inverse<S: Real> {
 }
 
 impl<S: Real> Inverse<S> {
-    /// Room for a tree.
+    /// Allocates the result for a tree.
     pub fn new(tree: &Tree<S>) -> Inverse<S> {
         Inverse {
             tau: vec![S::ZERO; tree.dofs()],
@@ -57,7 +57,7 @@ impl<S: Real> Inverse<S> {
 /// ```
 ///
 /// # Panics
-/// If anything has been made for another tree, or a force acts on a link that is not there.
+/// If an argument was made for another tree, or a force acts on a link that does not exist.
 pub fn inverse<S: Real>(
     tree: &Tree<S>,
     base: &Base<S>,

@@ -1,4 +1,4 @@
-//! How points move with the coordinates.
+//! Jacobians of points and rotations.
 
 use super::kinematics::world_axes;
 use super::{Links, Real, State, Tree, V3};
@@ -21,7 +21,7 @@ use super::{Links, Real, State, Tree, V3};
 /// ```
 ///
 /// # Panics
-/// If anything has been made for another tree, or there is no such link.
+/// If an argument was made for another tree, or the link does not exist.
 pub fn point_jacobian<S: Real>(
     tree: &Tree<S>,
     state: &State<S>,
@@ -37,7 +37,7 @@ pub fn point_jacobian<S: Real>(
 /// The Jacobian of a link's rotation: per degree of freedom its angular velocity per unit speed (1 or 0), world axes.
 ///
 /// # Panics
-/// If anything has been made for another tree, or there is no such link.
+/// If an argument was made for another tree, or the link does not exist.
 pub fn turning_jacobian<S: Real>(
     tree: &Tree<S>,
     state: &State<S>,

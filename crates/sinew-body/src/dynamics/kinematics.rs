@@ -1,4 +1,4 @@
-//! From relative motions to the motion of every link in the world.
+//! Forward kinematics: from relative motions to the motion of every link in the world.
 
 use super::tree::Node;
 use super::{Axes, Base, Freedom, Inertia, M3, Motion, Real, State, Sym3, Tree, V3};
@@ -16,7 +16,7 @@ pub struct Placed<S: Real> {
     pub velocity: V3<S>,
     /// Angular acceleration \[rad/s²\].
     pub angular_acceleration: V3<S>,
-    /// Acceleration of the origin less that of free fall \[m/s²\].
+    /// Acceleration of the origin minus that of free fall \[m/s²\].
     pub acceleration: V3<S>,
     /// ∂ẍ/∂x = \[α\]× + \[ω\]×\[ω\]× \[1/s²\]: a point at x from the origin is accelerated by `gradient`·x more.
     pub gradient: M3<S>,
@@ -33,7 +33,7 @@ pub struct Links<S: Real> {
 }
 
 impl<S: Real> Links<S> {
-    /// Room for the links of a tree.
+    /// Allocates the links of a tree.
     pub fn new(tree: &Tree<S>) -> Links<S> {
         Links { reference: V3::ZERO, placed: vec![Placed::default(); tree.nodes.len() + 1] }
     }
@@ -55,8 +55,8 @@ impl<S: Real> Links<S> {
     }
 }
 
-/// Places every link: rotation, origin, velocity, and the acceleration that is left when the second derivatives of
-/// the coordinates are zero.
+/// Forward kinematics of every link: rotation, origin, velocity, and the acceleration at zero second derivatives of the
+/// coordinates.
 ///
 /// # Panics
 /// If the state or the links belong to another tree.

@@ -4,8 +4,8 @@ use super::{Real, Tree};
 
 /// The symmetric matrix M of T = ½ q̇ᵀ M q̇, dense, both triangles filled.
 ///
-/// Degrees of freedom on different branches do not meet: those entries are zero from the start and are never written,
-/// see [`Tree::parent_of_dof`].
+/// Degrees of freedom on different branches are not coupled: those entries are zero from the start and are never
+/// written, see [`Tree::parent_of_dof`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct MassMatrix<S: Real> {
     dofs: usize,
@@ -55,7 +55,7 @@ impl<S: Real> MassMatrix<S> {
     /// Writes the first `axes` (1 to 3) of the entries side by side, and their mirror images.
     #[inline(always)]
     pub(super) fn set(&mut self, row: usize, first_column: usize, entries: [S; 3], axes: usize) {
-        // Spelled out: a loop would become a call of `memcpy` for at most three numbers.
+        // Unrolled: a loop would become a call of `memcpy` for at most three numbers.
         let mut put = |column: usize, entry: S| {
             self.entries[row * self.dofs + column] = entry;
             self.entries[column * self.dofs + row] = entry;

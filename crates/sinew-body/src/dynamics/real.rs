@@ -1,4 +1,4 @@
-//! The numbers that the algorithms are written in: one `f64`, or several side by side.
+//! The number type of the algorithms: one `f64`, or several side by side.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -24,9 +24,9 @@ pub trait Real:
     + MulAssign
     + 'static
 {
-    /// How many numbers stand side by side.
+    /// Number of lanes.
     const LANES: usize;
-    /// How three of them are kept.
+    /// Storage of three numbers.
     type Triple: Triple<Self>;
     /// 0 in every lane.
     const ZERO: Self;
@@ -40,7 +40,7 @@ pub trait Real:
     /// The number in one lane.
     ///
     /// # Panics
-    /// If there is no such lane.
+    /// If the lane does not exist.
     fn lane(self, lane: usize) -> f64;
     /// 1/x.
     #[must_use]

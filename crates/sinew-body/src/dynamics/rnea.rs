@@ -9,7 +9,7 @@ use super::kinematics::{place, place_base, world_mass};
 use super::tree::Node;
 use super::{Base, Freedom, Placed, PointForce, Real, State, Tree, V3, Workspace, Wrench};
 
-/// Which accelerations inverse dynamics is asked about.
+/// The accelerations for inverse dynamics.
 #[derive(Clone, Copy, Debug)]
 pub enum Accelerations<'a, S> {
     /// The relative accelerations of the [`State`], as they stand: prescribed ones, or zero second derivatives.
@@ -19,10 +19,10 @@ pub enum Accelerations<'a, S> {
 }
 
 /// The generalised forces `tau` (one per degree of freedom, \[N m\] or \[N\]) that produce the given accelerations
-/// against gravity and the forces from outside: τ = M q̈ + h − Jᵀ f.
+/// against gravity and external forces: τ = M q̈ + h − Jᵀ f.
 ///
 /// # Panics
-/// If anything has been made for another tree, or a force acts on a link that is not there.
+/// If an argument was made for another tree, or a force acts on a link that does not exist.
 pub fn rnea<S: Real>(
     tree: &Tree<S>,
     base: &Base<S>,
@@ -44,7 +44,7 @@ pub fn rnea<S: Real>(
     }
 }
 
-/// Places every link and fills the wrench that each needs by itself.
+/// Forward kinematics of every link, and the wrench that each requires by itself.
 #[inline(always)]
 pub(super) fn link_wrenches<S: Real>(
     tree: &Tree<S>,
@@ -72,8 +72,8 @@ pub(super) fn link_wrenches<S: Real>(
     take_forces(links.reference, forces, wrenches);
 }
 
-/// What a link's axes have of one number per degree of freedom. Spelled out, as a loop over at most three would become
-/// a call of `memcpy`.
+/// What a link's axes have of one number per degree of freedom. Unrolled, as a loop over at most three would become a
+/// call of `memcpy`.
 #[inline(always)]
 pub(super) fn get<S: Real>(node: &Node<S>, numbers: &[S]) -> V3<S> {
     let from = &numbers[node.first_dof..node.first_dof + node.axes];
@@ -98,7 +98,7 @@ pub(super) fn put<S: Real>(along: V3<S>, node: &Node<S>, numbers: &mut [S]) {
     }
 }
 
-/// The wrench that a link's own motion needs.
+/// The wrench required by a link's own motion.
 #[inline(always)]
 fn own_wrench<S: Real>(node: &Node<S>, placed: &Placed<S>) -> Wrench<S> {
     let (centre, second) = world_mass(node, placed);
@@ -106,7 +106,7 @@ fn own_wrench<S: Real>(node: &Node<S>, placed: &Placed<S>) -> Wrench<S> {
     newton_euler(node.mass, placed.origin + centre, &second, acceleration, &placed.gradient)
 }
 
-/// What comes from outside need not come through the joint.
+/// An external force reduces what the joint must transmit.
 #[inline(always)]
 pub(super) fn take_forces<S: Real>(reference: V3<S>, forces: &[PointForce<S>], wrenches: &mut [Wrench<S>]) {
     for push in forces {

@@ -1,8 +1,8 @@
-//! How every link is placed and moves relative to its parent.
+//! Relative pose and motion of every link.
 
 use super::{M3, Real, Tree, V3};
 
-/// The motion of one link relative to its parent, in full: not only what its coordinates make it do.
+/// The full motion of one link relative to its parent, including prescribed motion outside its coordinates.
 ///
 /// A joint whose motion is prescribed (*rheonomic*) sets all of it directly: any rotation, any angular velocity and
 /// acceleration, and in `axes` the directions on which torque is projected and for which the mass matrix is wanted.
@@ -16,8 +16,8 @@ pub struct Motion<S: Real> {
     /// Angular velocity \[rad/s\] of a link that turns, velocity \[m/s\] of one that slides, relative to the parent, in
     /// the link's axes.
     pub velocity: V3<S>,
-    /// Relative acceleration \[rad/s² or m/s²\] in the link's axes; where coordinates are used, the part that is
-    /// left when their second derivatives are zero.
+    /// Relative acceleration \[rad/s² or m/s²\] in the link's axes; where coordinates are used, the part at zero second
+    /// derivatives.
     pub acceleration: V3<S>,
     /// The joint's axes in the link's axes **by component**: column k holds component k of axis 0, 1, 2. Axes that
     /// the joint does not have are zero.

@@ -1,4 +1,4 @@
-//! Which link hangs from which, where, and how heavy it is: all that stays the same while a body moves.
+//! The constant part of a body: topology, joint positions, masses and inertias.
 
 use super::{Real, Sym3, V3};
 
@@ -12,14 +12,14 @@ pub enum Freedom {
     Slide,
 }
 
-/// One rigid body with the joint that carries it.
+/// One rigid body with the joint to its parent.
 ///
 /// A joint has at most three axes. A free root is two links: a massless one that slides, and the body that turns on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Link<S: Real> {
-    /// Index of the parent, smaller than the link's own; `None` when it hangs from the base.
+    /// Index of the parent, smaller than the link's own; `None` if the parent is the base.
     pub parent: Option<usize>,
-    /// Place of the joint, and of the link's origin when nothing slides, in the parent's frame \[m\].
+    /// Position of the joint, and of the link's origin at zero displacement, in the parent's frame \[m\].
     pub offset: V3<S>,
     /// Turn or slide.
     pub freedom: Freedom,
@@ -33,7 +33,7 @@ pub struct Link<S: Real> {
     pub inertia: Sym3<S>,
 }
 
-/// Why links do not make a tree.
+/// Why links do not form a valid tree.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TreeError {
     /// No links, or too many.
@@ -60,7 +60,7 @@ pub enum TreeError {
     Number {
         /// The link.
         link: usize,
-        /// What is wrong with it.
+        /// The problem.
         what: &'static str,
     },
     /// Trees that are to be stepped side by side differ in more than their measures.
@@ -68,7 +68,7 @@ pub enum TreeError {
     Mixed,
 }
 
-/// What the algorithms read per link. Slot 0 of every per-link array is the base, slot i + 1 is link i.
+/// Per-link data of the algorithms. Slot 0 of every per-link array is the base, slot i + 1 is link i.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node<S: Real> {
     pub parent_slot: usize,
@@ -103,13 +103,13 @@ pub struct Tree<S: Real> {
 }
 
 impl<S: Real> Tree<S> {
-    /// Most links a tree may have.
+    /// Maximum number of links.
     pub const MAX_LINKS: usize = 1_000;
 
-    /// Checks the links and joins them.
+    /// Builds a tree from checked links.
     ///
     /// # Errors
-    /// When parents do not stand before children, a joint has more than three axes, or a number makes no sense.
+    /// A parent does not precede its child, a joint has more than three axes, or a number is invalid.
     pub fn new(links: Vec<Link<S>>) -> Result<Tree<S>, TreeError> {
         if links.is_empty() || links.len() > Self::MAX_LINKS {
             return Err(TreeError::Size(links.len()));
@@ -147,7 +147,7 @@ impl<S: Real> Tree<S> {
     /// Trees of one build but different measures, one per lane. Lanes beyond the last tree repeat it.
     ///
     /// # Errors
-    /// When there is no tree, or they differ in links, parents, freedoms or axes.
+    /// No trees, or trees that differ in links, parents, freedoms or axes.
     pub fn side_by_side(trees: &[&Tree<f64>]) -> Result<Tree<S>, TreeError> {
         let Some(first) = trees.first() else { return Err(TreeError::Size(0)) };
         let build = |tree: &Tree<f64>| -> Vec<_> {

@@ -3,7 +3,7 @@
 
 use super::Real;
 
-/// Largest angle \[rad\] whose reduction below is exact to rounding: quarter turns counted up to 2¹⁷ times a 36-bit
+/// Maximum angle \[rad\] whose reduction below is exact to rounding: quarter turns counted up to 2¹⁷ times a 36-bit
 /// part of π/2 fit a 53-bit product. Beyond it [`Real::sincos`] asks `libm`.
 pub(super) const REDUCIBLE: f64 = 1.0e5;
 

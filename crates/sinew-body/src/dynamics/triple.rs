@@ -1,4 +1,4 @@
-//! How three numbers are kept.
+//! Storage of three numbers.
 
 use std::fmt::Debug;
 use std::ops::{Add, Neg, Sub};

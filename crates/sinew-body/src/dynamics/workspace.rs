@@ -1,9 +1,9 @@
-//! Room for intermediate results, so that no call allocates.
+//! Scratch memory, so that no call allocates.
 
 use super::aba::{Articulated, Elimination};
 use super::{Axes, Inertia, Links, Real, Tree, Wrench};
 
-/// Scratch memory of the algorithms, made once per tree. What it holds between calls means nothing, except
+/// Scratch memory of the algorithms, made once per tree. Its contents between calls are meaningless, except
 /// [`Workspace::links`] and [`Workspace::reaction`].
 #[derive(Clone, Debug)]
 pub struct Workspace<S: Real> {
@@ -16,7 +16,7 @@ pub struct Workspace<S: Real> {
 }
 
 impl<S: Real> Workspace<S> {
-    /// Room for a tree.
+    /// Allocates the scratch memory for a tree.
     pub fn new(tree: &Tree<S>) -> Workspace<S> {
         let slots = tree.nodes.len() + 1;
         Workspace {

@@ -34,7 +34,7 @@ impl<S: Real> AddAssign<&Wrench<S>> for Wrench<S> {
     }
 }
 
-/// A force that acts on a link from outside: a push, a contact.
+/// An external force on a link: a push, a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointForce<S: Real> {
     /// Index of the link pushed.

@@ -1,10 +1,10 @@
-//! A character's body: what each of the 18 nodes weighs, how it is shaped and how far it turns.
+//! A character's body: mass, shape and joint limit of each of the 18 nodes.
 
 use super::anthropometry::{STANDARD_STATURE_M, segment, standard_offset, standard_radii, standard_tip};
 use super::{Limit, Node, Pose};
 use glam::{DMat3, DVec3};
 
-/// A tapered capsule in a node's frame: what the body looks like and where it can be touched.
+/// A tapered capsule in a node's frame: its visible and collision shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// Centre of the first cap \[m\].
@@ -32,7 +32,7 @@ pub struct Link {
     pub inertia: DVec3,
     /// Its capsule.
     pub shape: Shape,
-    /// How far its joint turns.
+    /// Limit of its joint.
     pub limit: Limit,
 }
 
@@ -70,7 +70,7 @@ impl Body {
     /// capture skeletons disagree about where a spine begins.
     pub fn shaped(mass_kg: f64, stature_m: f64, offsets: &[DVec3; Node::COUNT], tips: &[DVec3; Node::COUNT]) -> Body {
         let scale = stature_m / STANDARD_STATURE_M;
-        // Breadths of a body of another build: mass grows with length times breadth squared.
+        // Breadths of a body of other proportions: mass grows with length times breadth squared.
         let build = (mass_kg / 80.0 / scale).max(1e-3).sqrt();
         let links = Node::ALL.map(|node| {
             let segment = segment(node);

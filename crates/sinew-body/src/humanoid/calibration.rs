@@ -1,25 +1,25 @@
-//! Anatomical frames for a skeleton whose own joint frames mean nothing.
+//! Calibration: anatomical frames for a skeleton whose own joint frames are arbitrary.
 //!
-//! Every rig turns its joints from a rest pose of its own: a T-pose, arms hanging, or (in captures exported without
-//! one) a heap of bones along local axes. Limits, hinge axes and inertias need frames with a meaning. They are found
-//! from geometry: a standing *reference* (the rest pose where it is a plausible one, else the clip's straightest
-//! standing frame), the directions of the bones, and, for limbs, the axis about which the elbow or knee is seen to bend
-//! in the clip, which fixes the twist of the bone better than any rest pose.
+//! Every rig rotates its joints from its own rest pose: a T-pose, arms hanging, or (in captures exported without one)
+//! bones stacked along local axes. Limits, hinge axes and inertias need anatomical frames. They are found from
+//! geometry: a standing *reference* (the rest pose where it is a plausible one, else the clip's straightest standing
+//! frame), the directions of the bones, and, for limbs, the axis about which the elbow or knee is seen to bend in the
+//! clip, which fixes the twist of the bone better than any rest pose.
 
 use super::Node;
 use glam::{DMat3, DQuat, DVec3};
 use sinew_motion::{Clip, Humanoid, Part, Transform};
 
-/// Frames looked at; enough to see an elbow bend, few enough to be free.
+/// Maximum number of sampled frames: enough to see an elbow bend, few enough to cost nothing.
 const SAMPLES: usize = 200;
 
 /// Mean sine of the bend below which a hinge axis is not trusted: a limb bent by less than about 8 degrees.
 const MIN_BEND: f64 = 0.14;
 
-/// How far hinge axes may scatter and still be averaged: length of their mean over their mean length.
+/// Minimum concentration of hinge axes for averaging: length of their mean over their mean length.
 const MIN_AGREEMENT: f64 = 0.7;
 
-/// World poses of a skeleton to measure on.
+/// World poses of a skeleton for measuring.
 pub(super) struct Samples {
     /// Up to [`SAMPLES`] frames of the clip, each `world_from_joint`.
     frames: Vec<Vec<Transform>>,
@@ -27,7 +27,7 @@ pub(super) struct Samples {
     pub reference: Vec<Transform>,
 }
 
-/// Where a part is; the end of the limb when the part itself is missing.
+/// Position of a part; the end of the limb if the part itself is missing.
 pub(super) fn position(world: &[Transform], clip: &Clip, humanoid: &Humanoid, part: Part) -> Option<DVec3> {
     let joints = clip.skeleton().joints();
     match humanoid.joint(part) {
@@ -85,8 +85,8 @@ impl Samples {
     }
 }
 
-/// How far a pose is from standing upright with straight legs, in units of what is still plausible; `None` when it
-/// cannot be told.
+/// Deviation of a pose from standing upright with straight legs, 1 at the limit of the plausible; `None` if it cannot
+/// be measured.
 fn misfit(world: &[Transform], clip: &Clip, humanoid: &Humanoid) -> Option<f64> {
     let at = |part| position(world, clip, humanoid, part);
     let hips = (at(Part::LeftUpperLeg)? + at(Part::RightUpperLeg)?) * 0.5;
@@ -145,7 +145,7 @@ pub(super) fn frames(samples: &Samples, clip: &Clip, humanoid: &Humanoid) -> [Op
     };
     let chest = carrier(humanoid, Node::Chest).zip(joint_from_node(Node::Chest));
     Node::ALL.map(|node| match node {
-        // Collar bones and heads stay about where they are, and rest poses tilt them at will: their mean place against
+        // Collar bones and heads move little, and rest poses tilt them arbitrarily: their mean orientation relative to
         // the chest is their neutral one.
         Node::LeftShoulder | Node::RightShoulder | Node::Neck | Node::Head => {
             samples.mean_rotation(carrier(humanoid, node)?, chest?)

@@ -1,11 +1,11 @@
 //! Two-bone inverse kinematics of a leg, as a deviation from the input's own leg.
 //!
-//! The input's leg is turned as a whole so that it points at the wanted ankle, then its knee is opened or closed. Without a
+//! The input's leg is rotated as a whole to point at the wanted ankle, then its knee is extended or flexed. Without a
 //! change of hip or ankle the result is the input's, exactly.
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// A leg in the world: where its joints are and which way its knee bends.
+/// A leg in the world: positions of its joints and flexion axis of its knee.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegPose {
     /// Hip joint \[m\].
@@ -14,7 +14,7 @@ pub struct LegPose {
     pub knee: DVec3,
     /// Ankle joint \[m\].
     pub ankle: DVec3,
-    /// Axis about which the knee flexes, a unit vector; used where the leg is too straight to tell.
+    /// Axis about which the knee flexes, a unit vector; used where the leg is too straight to define it.
     pub knee_axis: DVec3,
 }
 
@@ -30,9 +30,9 @@ const BENT: (f64, f64) = (0.04, 0.17);
 /// The input's thigh and shank turned in the world, `world_from_world` deltas, so that the leg, its hip at `hip`, puts
 /// its ankle at `ankle`; the leg stretches as far as it can when the ankle is out of reach.
 ///
-/// The knee's place follows from the lengths but for a turn about the line from hip to ankle: a bent knee keeps the input's, one
-/// that is straight or bent backward turns to the front as hip or ankle move. The thigh's and the shank's own turn about
-/// themselves keep the hinge axis where the leg as a whole takes it.
+/// The knee's position follows from the lengths except for a rotation about the line from hip to ankle: a bent knee
+/// keeps the input's, one that is straight or bent backward turns to the front as hip or ankle move. The twists of
+/// thigh and shank keep the hinge axis fixed to the leg as a whole.
 pub fn solve_leg(input: &LegPose, hip: DVec3, ankle: DVec3) -> (DQuat, DQuat) {
     let moved = (hip - input.hip).length() + (ankle - input.ankle).length();
     if moved == 0.0 {
@@ -83,7 +83,7 @@ fn along(bone: DVec3, axis: DVec3) -> Option<DQuat> {
     Some(DQuat::from_mat3(&DMat3::from_cols(x, y, x.cross(y))).normalize())
 }
 
-/// The flexion \[rad\] at which a leg is so long.
+/// The flexion \[rad\] at which a leg has the length `long`.
 fn flexion_for(thigh: f64, shank: f64, length: f64) -> f64 {
     let length = length.clamp((thigh - shank).abs() + 1e-9, thigh + shank);
     let at_knee = (thigh * thigh + shank * shank - length * length) / (2.0 * thigh * shank);
@@ -102,14 +102,14 @@ fn smoothstep(from: f64, to: f64, value: f64) -> f64 {
     share * share * (3.0 - 2.0 * share)
 }
 
-/// How straight a leg may get \[1 of its length\] unless the input's is straighter: knees do not snap.
+/// Maximum extension of a leg \[1 of its length\] unless the input's is straighter: knees do not snap.
 const STRAIGHTEST: f64 = 0.9995;
 
-/// Sweeps over the two legs; each is a projection onto a ball, and two balls that meet need few.
+/// Iterations over the two legs; each is a projection onto a ball, and two intersecting balls need few.
 const SWEEPS: usize = 16;
 
-/// The shift of the hips \[m\] closest to `shift` at which both legs of the input still reach their ankles from hip joints
-/// at `hips`, which are then shifted: as a rule they sink a little.
+/// The shift of the hips \[m\] closest to `shift` at which both legs of the input still reach their ankles; `hips` are
+/// the unshifted hip joints. As a rule the hips sink a little.
 pub fn shift_within_reach(legs: &[LegPose; 2], hips: [DVec3; 2], shift: DVec3) -> DVec3 {
     let legs = [0, 1].map(|side| {
         let leg = &legs[side];

@@ -1,4 +1,4 @@
-//! How far joints turn.
+//! Joint limits.
 //!
 //! A joint's rotation is measured from a *centre* of its range and split into a swing of the bone and a twist about
 //! it. The swing stays inside an ellipse with a half-axis of its own in each of the four directions (joints are not
@@ -82,7 +82,7 @@ impl Limit {
         }
     }
 
-    /// How far a `parent_from_node` rotation lies beyond the range \[rad\]; 0 inside.
+    /// Excess of a `parent_from_node` rotation over the range \[rad\]; 0 inside.
     pub fn excess(&self, local: DQuat) -> f64 {
         let (x, z, twist) = swing_twist(self.centre.conjugate() * local);
         let ratio = self.swing_ratio(x, z);
@@ -99,8 +99,8 @@ impl Limit {
             && twist >= self.twist.0 - BOUNDARY_SLACK
     }
 
-    /// The `parent_from_node` rotation itself if it lies in the range; else the one whose swing is cut back to the ellipse, in
-    /// its own direction, and whose twist is cut back to the interval.
+    /// Clamps a `parent_from_node` rotation to the range: its swing to the ellipse, in its own direction, and its twist
+    /// to the interval.
     pub fn clamp(&self, local: DQuat) -> DQuat {
         let (x, z, twist) = swing_twist(self.centre.conjugate() * local);
         let ratio = self.swing_ratio(x, z);

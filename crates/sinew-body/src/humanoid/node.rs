@@ -64,7 +64,7 @@ pub const LEGS: [(Node, Node, Node); 2] = [
 ];
 
 impl Node {
-    /// How many nodes there are.
+    /// Number of nodes.
     pub const COUNT: usize = 18;
 
     /// Every node, parents before children, the upper body first.
@@ -94,7 +94,7 @@ impl Node {
         self as usize
     }
 
-    /// The body that this one hangs from; `None` for the hips.
+    /// The parent of this node; `None` for the hips.
     pub const fn parent(self) -> Option<Node> {
         Some(match self {
             Node::Hips => return None,

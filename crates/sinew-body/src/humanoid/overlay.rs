@@ -1,9 +1,9 @@
-//! The way back: an answer of the 18 bodies, put on the source's own joints.
+//! The overlay: applies a deviation of the 18 bodies to the source's own joints.
 //!
-//! What comes back is a *deviation*. Joints that no node moves (fingers, toes, face, twist helpers) keep their own local
-//! rotation; a spine or neck of several joints shares the deviation along its length; both feet stay where the input
-//! has them, in place and orientation, and the legs are bent to reach them. Where there is no deviation nothing is
-//! touched, not even the last bit.
+//! The result of a method is a *deviation* from the input. Joints that no node moves (fingers, toes, face, twist
+//! helpers) keep their own local rotation; a spine or neck of several joints shares the deviation along its length;
+//! both feet stay where the input has them, in place and orientation, and the legs are bent to reach them. Without a
+//! deviation every joint keeps its value, bit for bit.
 
 use super::leg::{LegPose, shift_within_reach, solve_leg};
 use super::node::LEGS;
@@ -12,16 +12,16 @@ use super::{Node, Reduction, UPPER_NODES};
 use glam::{DQuat, DVec3};
 use sinew_motion::Transform;
 
-/// Turns below this \[rad\] and shifts below this \[m\] are no deviation: a hundredth of the last digit that a motion
-/// file prints.
+/// Rotations below this \[rad\] and shifts below this \[m\] count as no deviation: a hundredth of the last digit that a
+/// motion file prints.
 const NOTHING: f64 = 1e-10;
 
-/// How far a body is from the input at one instant.
+/// The deviation of a body from its input at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     /// The hips' shift in the world \[m of the clip\].
     pub hips_shift: DVec3,
-    /// The hips' turn: `world_from_hips` is turned by the [`exp`] of this world vector \[rad\].
+    /// The hips' rotation: `world_from_hips` is rotated by the [`exp`] of this world vector \[rad\].
     pub hips_turn: DVec3,
     /// Shift of the ground that the body stands on \[m of the clip\]: hips and feet move with it.
     pub ground_shift: DVec3,
@@ -31,7 +31,7 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// The input itself.
+    /// No deviation: the input itself.
     pub const NONE: Deviation = Deviation {
         hips_shift: DVec3::ZERO,
         hips_turn: DVec3::ZERO,
@@ -60,17 +60,17 @@ impl Deviation {
         }
     }
 
-    /// The same with its shifts in other units: metres of the clip from metres of the body.
+    /// The same with scaled shifts: metres of the clip from metres of the body.
     pub fn with_shifts_scaled(&self, scale: f64) -> Deviation {
         Deviation { hips_shift: self.hips_shift * scale, ground_shift: self.ground_shift * scale, ..*self }
     }
 }
 
-/// Puts deviations on a skeleton's joints; keeps its scratch, so that applying allocates nothing.
+/// Applies deviations to a skeleton's joints; keeps its scratch memory, so that applying does not allocate.
 #[derive(Clone, Debug)]
 pub struct Overlay<'a> {
     reduction: &'a Reduction,
-    /// Per joint, by what its world orientation turns: `world_from_world`.
+    /// Per joint, the change of its world orientation: `world_from_world`.
     deltas: Vec<DQuat>,
     /// Per joint, the node or chain share that sets its delta.
     roles: Vec<Role>,
@@ -91,7 +91,7 @@ enum Role {
 
 impl<'a> Overlay<'a> {
     /// An overlay for the skeleton that `reduction` was made for; `moving` are the joints whose translation may change,
-    /// of which the hips or one of its ancestors must be one (else shifts are left out).
+    /// of which the hips or one of its ancestors must be one (otherwise shifts are ignored).
     pub fn new(reduction: &'a Reduction, moving: &[usize]) -> Overlay<'a> {
         let joints = reduction.parents.len();
         let mut roles = vec![Role::Follow; joints];
@@ -150,8 +150,8 @@ impl<'a> Overlay<'a> {
         }
     }
 
-    /// Bends both legs so that the feet stay where the input has them; returns the hips' shift, given way to the reach of the
-    /// source's own legs, which may differ by millimetres from the body's.
+    /// Bends both legs so that the feet stay where the input has them; returns the hips' shift, limited to the reach of
+    /// the source's own legs, which may differ by millimetres from the body's.
     fn plant_feet(
         &self,
         world: &[Transform],
@@ -177,7 +177,8 @@ impl<'a> Overlay<'a> {
         shift
     }
 
-    /// Where the turns of the joints above it bring a joint \[m\]. Most rigs hang the legs on the hips, some on the spine.
+    /// Position of a joint under the rotations of the joints above it \[m\]. Most rigs attach the legs to the hips,
+    /// some to the spine.
     fn carried(&self, world: &[Transform], joint: usize, turned: &Turned) -> DVec3 {
         let mut moved = DVec3::ZERO;
         let mut at = joint;
@@ -192,7 +193,7 @@ impl<'a> Overlay<'a> {
         world[joint].translation + moved
     }
 
-    /// By what a joint turns in the world.
+    /// The change of a joint's world orientation.
     fn delta(&self, joint: usize, turned: &Turned) -> DQuat {
         let mut at = Some(joint);
         while let Some(joint) = at {
@@ -205,7 +206,7 @@ impl<'a> Overlay<'a> {
     }
 }
 
-/// By what every node turns in the world, `world_from_world`.
+/// The change of every node's world orientation, `world_from_world`.
 struct Turned {
     nodes: [DQuat; Node::COUNT],
     chest_against_hips: DVec3,
@@ -213,7 +214,7 @@ struct Turned {
 }
 
 impl Turned {
-    /// Legs and feet are left as they are.
+    /// Legs and feet do not change.
     fn of(input: &[DQuat; Node::COUNT], deviation: &Deviation) -> Turned {
         let mut output = *input;
         let mut nodes = [DQuat::IDENTITY; Node::COUNT];
@@ -223,7 +224,7 @@ impl Turned {
             let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
             let turn = deviation.turns[at];
             if turn.length() <= NOTHING {
-                // Exactly the parent's turn, so that an untouched joint keeps its last bit.
+                // Exactly the parent's change, so that an unchanged joint keeps its last bit.
                 nodes[at] = nodes[parent];
                 output[at] = nodes[at] * input[at];
             } else {
@@ -240,7 +241,7 @@ impl Turned {
         }
     }
 
-    /// By what a joint of this role turns; `None` for one that turns with its parent.
+    /// The change of a joint of this role; `None` for one that rotates with its parent.
     fn delta(&self, role: Role) -> Option<DQuat> {
         match role {
             Role::Follow => None,

@@ -5,7 +5,7 @@ use super::rotation::exp;
 use super::{Body, Deviation, LegPose, Node, UPPER_NODES, solve_leg};
 use glam::{DQuat, DVec3};
 
-/// Where every body is: the hips' position and all world orientations.
+/// The pose of the 18 bodies: the hips' position and all world orientations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// The hips' origin in the world \[m\].
@@ -37,7 +37,7 @@ impl Pose {
         Pose { hips_position, world }
     }
 
-    /// Where every node's joint is in the world \[m\].
+    /// Position of every node's joint in the world \[m\].
     pub fn positions(&self, body: &Body) -> [DVec3; Node::COUNT] {
         let mut positions = [self.hips_position; Node::COUNT];
         for node in Node::ALL {

@@ -1,4 +1,4 @@
-//! From any skeleton to the 18 bodies.
+//! The reduction of any skeleton to the 18 bodies.
 
 use super::anthropometry::{STANDARD_STATURE_M, standard_offset, standard_tip};
 use super::calibration::{self, Samples, position};
@@ -10,7 +10,7 @@ use sinew_motion::{Clip, Humanoid, Part, Transform};
 /// method's tree. Capture skeletons place their spine joints anywhere, some leave one out.
 const CHEST_JOINT_FRACTION: f64 = 0.111 / 0.335;
 
-/// Whom a motion is taken to be.
+/// The person that performs a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Person {
     /// Mass of the whole body \[kg\].
@@ -26,10 +26,10 @@ impl Default for Person {
     }
 }
 
-/// Why a skeleton cannot be taken for a body.
+/// Why a skeleton cannot be reduced to a body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReductionError {
-    /// The person's mass or height makes no sense.
+    /// The person's mass or height is out of range.
     #[error("a body of {mass_kg} kg and {height_m:.2} m is out of range; mass is 1 to 1000 kg, height 0.2 to 10 m")]
     Person {
         /// The mass asked for \[kg\].
@@ -37,7 +37,7 @@ pub enum ReductionError {
         /// The height asked for or measured \[m\].
         height_m: f64,
     },
-    /// A bone that must have a length has none.
+    /// A bone that needs a length has none.
     #[error("the {part} has no length in this skeleton; check the mapping that `sinew inspect` prints")]
     NoLength {
         /// The part whose bone is too short.
@@ -45,14 +45,14 @@ pub enum ReductionError {
     },
 }
 
-/// Which joint carries a node, and the constant turn between their frames.
+/// Which joint carries a node, and the constant rotation between their frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Carrier {
     pub joint: usize,
     pub joint_from_node: DQuat,
 }
 
-/// How a source skeleton is seen as the 18 bodies of [`Node`], and the body that it has.
+/// A mapping from a source skeleton to the 18 bodies of [`Node`], and the body measured on it.
 #[derive(Clone, Debug)]
 pub struct Reduction {
     body: Body,
@@ -67,7 +67,7 @@ pub struct Reduction {
 }
 
 impl Reduction {
-    /// Looks at a clip's skeleton and its motion, and finds the body in it. `stature_m` is the skeleton's own.
+    /// Measures the body on a clip's skeleton and motion. `stature_m` is the skeleton's own.
     ///
     /// # Errors
     /// When the person is out of range or a limb has no length.
@@ -204,7 +204,7 @@ impl Bones {
         stature_m: f64,
     ) -> Bones {
         let standard_scale = stature_m / STANDARD_STATURE_M;
-        // A point's mean place in a node's frame.
+        // A point's mean position in a node's frame.
         let place = |node: Node, from: Part, to: Part| -> Option<DVec3> {
             let carrier = carriers[node.index()]?;
             samples.mean(|world| {
@@ -247,7 +247,7 @@ impl Bones {
                 set(shoulder, from_chest(shoulder.part()));
                 set(upper, place(shoulder, shoulder.part(), upper.part()));
             } else if let Some(arm) = from_chest(upper.part()) {
-                // No collar bone: one is put between the breastbone and the arm, and turns with the chest.
+                // No collar bone: one is assumed between the breastbone and the arm, and rotates with the chest.
                 let start = DVec3::new(arm.x * 0.133, arm.y, arm.z);
                 set(shoulder, Some(start));
                 set(upper, Some(arm - start));

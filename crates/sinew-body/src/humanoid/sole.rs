@@ -1,4 +1,4 @@
-//! What a foot stands on.
+//! The sole of a foot.
 
 use super::{Body, Node, Pose};
 use glam::DVec3;
@@ -6,15 +6,15 @@ use glam::DVec3;
 /// The sole of a foot: a rectangle under the ankle, in the foot's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sole {
-    /// The ankle's height over it \[m\].
+    /// Height of the ankle above it \[m\].
     pub ankle_m: f64,
     /// Its breadth \[m\].
     pub breadth_m: f64,
-    /// Where its middle line is, along X \[m\].
+    /// Position of its centre line along X \[m\].
     pub middle_m: f64,
-    /// Where the heel ends, along Z; behind the ankle, so below 0 \[m\].
+    /// Position of the end of the heel along Z; behind the ankle, so negative \[m\].
     pub heel_m: f64,
-    /// Where the toes end, along Z \[m\].
+    /// Position of the end of the toes along Z \[m\].
     pub toes_m: f64,
 }
 
@@ -38,12 +38,13 @@ impl Sole {
         }
     }
 
-    /// Where the ball of the foot is, along Z \[m\]: from there forward bears a foot whose heel is up. 0.62 of the sole from the heel.
+    /// Position of the ball of the foot along Z \[m\]: with the heel raised, the foot is supported from there forward.
+    /// 0.62 of the sole from the heel.
     pub fn ball_m(&self) -> f64 {
         self.heel_m + 0.62 * (self.toes_m - self.heel_m)
     }
 
-    /// The middle of its front edge, in the foot's frame \[m\]: what stays where it is while the heel rises.
+    /// The middle of its front edge, in the foot's frame \[m\]: the pivot while the heel rises.
     pub fn toe(&self) -> DVec3 {
         DVec3::new(self.middle_m, -self.ankle_m, self.toes_m)
     }

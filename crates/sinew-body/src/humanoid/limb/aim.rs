@@ -1,4 +1,4 @@
-//! The limb flexed for a distance and turned to its target, before it swivels.
+//! The limb flexed to a distance and rotated towards its target, before the swivel.
 
 use super::LimbGoal;
 use super::hinge::{Hinge, Side};
@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 /// Halvings of the last percent of the reach, where the upper joint's limit asks for it: to a thousandth of a millimetre.
 const STRAIGHTENINGS: u32 = 13;
 
-/// Where the target is, seen from the limb's first joint, and what is to come there.
+/// The target relative to the limb's first joint, and the effector that is to reach it.
 pub(super) struct Aim {
     near: DQuat,
     elbow: DVec3,

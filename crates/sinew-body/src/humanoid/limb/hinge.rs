@@ -1,4 +1,4 @@
-//! An elbow or a knee: which flexion makes the limb how long.
+//! An elbow or a knee: limb length as a function of flexion, and its inverse.
 
 use super::super::Limit;
 use super::super::rotation::exp;
@@ -60,7 +60,7 @@ impl Hinge {
         }
     }
 
-    /// Whether it is a joint at all: bones with a length, a range that is not empty.
+    /// Whether it is valid: bones with a length, a range that is not empty.
     pub fn is_sound(&self) -> bool {
         self.swing >= 1e-9 && self.range.0 <= self.range.1
     }
@@ -88,7 +88,7 @@ impl Hinge {
         if self.sign * (off - TAU * (off / TAU).round()) < 0.0 { Side::Back } else { Side::Bent }
     }
 
-    /// What a wanted distance comes to: itself up to [`EXACT_REACH`] of the limb, then ever less, up to the longest.
+    /// Soft clamp of a wanted distance: exact up to [`EXACT_REACH`] of the limb, then approaching the maximum smoothly.
     pub fn softened(&self, distance: f64) -> f64 {
         soft_minimum(distance, self.longest())
     }
@@ -112,12 +112,12 @@ impl Hinge {
     }
 }
 
-/// Most angles that it is asked for are 0.
+/// Shortcut: the angle is 0 in most calls.
 fn cos(angle: f64) -> f64 {
     if angle == 0.0 { 1.0 } else { libm::cos(angle) }
 }
 
-/// The turn about the bone itself in a joint's turn, within the range.
+/// The twist of a joint's rotation, clamped to its range.
 fn kept_twist(turn: DQuat, range: (f64, f64)) -> DQuat {
     let bare = DQuat::from_xyzw(0.0, turn.y, 0.0, turn.w);
     let bare = if turn.w < 0.0 { -bare } else { bare };
@@ -129,7 +129,7 @@ fn kept_twist(turn: DQuat, range: (f64, f64)) -> DQuat {
     exp(DVec3::Y * if norm > 1e-9 { angle } else { 0.0 }.clamp(range.0, range.1))
 }
 
-/// The value itself up to [`EXACT_REACH`] of the limit, then ever slower up to the limit, without a kink.
+/// Soft clamp: exact up to [`EXACT_REACH`] of the limit, then approaching the limit smoothly.
 fn soft_minimum(value: f64, limit: f64) -> f64 {
     let from = EXACT_REACH * limit;
     let room = limit - from;

@@ -1,9 +1,10 @@
-//! Two-bone inverse kinematics of an arm or a leg, in closed form: from a point in the world to the turns of its joints.
+//! Two-bone inverse kinematics of an arm or a leg, in closed form: from a point in the world to the rotations of its
+//! joints.
 //!
-//! The elbow's flexion follows from the distance (the law of cosines), the direction of the upper bone from the target. What is
-//! left free is the *swivel*, a turn of the whole limb about the line from its first joint to the target. It stays as near as
-//! the joint's limit lets it to where the limb is wanted, so that a limb which follows a moving target does not flip, unless the
-//! range of swivels in which it is closes and another one is open.
+//! The elbow's flexion follows from the distance (the law of cosines), the direction of the upper bone from the target.
+//! The remaining freedom is the *swivel* (swivel angle), a rotation of the whole limb about the line from its first
+//! joint to the target. It stays as near to the preferred pose as the joint's limit allows, so that a limb that follows
+//! a moving target does not flip, unless the range of swivels in which it is closes and another one is open.
 
 mod aim;
 mod hinge;
@@ -28,35 +29,35 @@ pub enum Limb {
     RightLeg,
 }
 
-/// Where a limb is to end.
+/// The goal of a limb.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimbGoal {
-    /// Where the shoulder or hip joint is, world \[m\].
+    /// Position of the shoulder or hip joint, world \[m\].
     pub joint: DVec3,
-    /// `world_from_parent` of what the limb hangs from: the shoulder, or the hips.
+    /// `world_from_parent` of the limb's parent: the shoulder, or the hips.
     pub world_from_parent: DQuat,
-    /// `parent_from_node` of the hand or foot, which keeps its turn against the forearm or shank.
+    /// `parent_from_node` of the hand or foot, which keeps its rotation relative to the forearm or shank.
     pub end: DQuat,
-    /// The point that is to come to the target, in the frame of the hand or foot \[m\].
+    /// The effector, a point in the frame of the hand or foot \[m\].
     pub effector: DVec3,
-    /// Where it is to come, world \[m\].
+    /// The target of the effector, world \[m\].
     pub target: DVec3,
-    /// `parent_from_node` of the upper and the lower bone near which the limb is to stay. The lower bone's turn about itself
-    /// is kept.
+    /// Preferred `parent_from_node` of the upper and the lower bone. The lower bone keeps this twist.
     pub near: [DQuat; 2],
 }
 
-/// The turns that bring a limb to its goal.
+/// The joint rotations that bring a limb to its goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimbTurns {
     /// `parent_from_node` of the upper arm or leg, inside its limit.
     pub upper: DQuat,
     /// `parent_from_node` of the lower arm or leg.
     pub lower: DQuat,
-    /// How far the effector stays from the target \[m\]. Targets beyond 99 % of the reach are approached ever more slowly.
+    /// Remaining distance from effector to target \[m\]. Targets beyond 99 % of the reach are approached smoothly and
+    /// not reached exactly.
     pub miss_m: f64,
-    /// How far beyond its limit the upper bone's joint would have to turn for the target \[rad\]: 0 wherever a swivel is inside.
-    /// The turn given is cut back to the limit.
+    /// Excess over the limit of the upper bone's joint that the target would need \[rad\]: 0 if any swivel is inside
+    /// the limit. The returned rotation is clamped to the limit.
     pub excess_rad: f64,
 }
 
@@ -90,13 +91,13 @@ impl Limb {
     }
 }
 
-/// The turns that bring a limb to its goal, with the hand or foot turned against the lower bone as the goal says; `None` when
-/// a number of the goal is not finite or the limb has no length.
+/// The joint rotations that bring a limb to its goal, with the hand or foot rotated relative to the lower bone as the
+/// goal says; `None` when a number of the goal is not finite or the limb has no length.
 ///
-/// Both turns are inside their joints' limits. A target nearer or farther than the limb can be is neared along the line to it.
-/// One in a direction that the upper joint cannot have is neared by cutting that joint's turn back to its range; what is missed
-/// then is more than the least possible: in the middle by 2 cm for arms and 6 cm for legs, over targets all round, and by less
-/// than half a centimetre where the joint would be up to 9 degrees beyond its range.
+/// Both rotations are inside their joints' limits. A target out of reach is approached along the line to it. One in a
+/// direction outside the upper joint's limit is approached by clamping that joint's rotation to its range; the
+/// remaining distance is then larger than the minimum: in the middle by 2 cm for arms and 6 cm for legs, over targets
+/// all round, and by less than half a centimetre where the joint would be up to 9 degrees beyond its range.
 ///
 /// ```
 /// use glam::{DQuat, DVec3};
@@ -120,7 +121,7 @@ pub fn solve_limb(body: &Body, limb: Limb, goal: &LimbGoal) -> Option<LimbTurns>
     place(body, limb, goal, |_| Side::Bent)
 }
 
-/// As [`solve_limb`], the elbow or knee first looked for on the side that `first` says.
+/// As [`solve_limb`], with the elbow or knee first searched on the side `first`.
 fn place(body: &Body, limb: Limb, goal: &LimbGoal, first: impl Fn(&Hinge) -> Side) -> Option<LimbTurns> {
     if !goal.is_finite() {
         return None;

@@ -1,4 +1,4 @@
-//! What the turn of one joint does while the limb swivels, and at which swivels it is inside its limit.
+//! The rotation of one joint as a function of the swivel, and the swivels at which it is inside its limit.
 //!
 //! The limb swivels by the angle φ about its line. A joint's turn, seen from the middle of its range, is then
 //! q(φ) = a cos(φ/2) + b sin(φ/2) with two fixed quaternions, and the bone's own axis runs round a circle on the sphere,
@@ -16,10 +16,10 @@ use super::super::Swing;
 use glam::{DQuat, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// How far inside its limit a joint is put that has to go to the edge, so that rounding leaves it inside \[rad\].
+/// Margin by which a joint at its limit is moved inside, so that rounding leaves it inside \[rad\].
 const INSIDE: f64 = 1e-9;
 
-/// How far F is brought below 0, and by how much it may be above that, for the same reason.
+/// The same margin for F: how far it is brought below 0, and its tolerance.
 const DEPTH: f64 = 2e-9;
 const CLOSE: f64 = 1e-9;
 
@@ -183,7 +183,7 @@ impl Sweep {
         (if u.z < 0.0 { self.tight[0] } else { self.tight[1] }, if u.x > 0.0 { self.tight[2] } else { self.tight[3] })
     }
 
-    /// How far the joint is outside its limit, as [`super::super::Limit::excess`] has it. `half` and `turn` are sine and cosine of
+    /// Excess of the joint over its limit, as [`super::super::Limit::excess`]. `half` and `turn` are sine and cosine of
     /// half the swivel, and of the swivel.
     #[inline(always)]
     pub fn excess(&self, half: (f64, f64), turn: (f64, f64)) -> Excess {
@@ -220,14 +220,14 @@ impl Sweep {
     }
 }
 
-/// How far a joint is outside.
+/// Excess of a joint over its limit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Excess {
     /// \[rad\], 0 inside.
     pub rad: f64,
     /// Its derivative by the swivel.
     pub slope: f64,
-    /// Not at all, by its swing, or by its twist to either side: the slope jumps from one to another.
+    /// Which limit is exceeded: none, the swing, or the twist to either side; the slope jumps between them.
     pub which: u8,
 }
 

@@ -1,16 +1,16 @@
-//! Which swivel of a limb keeps its joints inside their limits.
+//! Search for the swivel of a limb that keeps its joints inside their limits.
 
 use super::sweep::Sweep;
 use std::f64::consts::PI;
 
-/// Steps after which a search that has come to no end counts as fruitless; three or four are usual.
+/// Maximum number of steps of a search; three or four are usual.
 const MAX_STEPS: usize = 64;
 
-/// What a swivel of one radian counts against excess, where no swivel is inside the limits: the limb is not thrown round for a
-/// little less.
+/// Cost of a swivel of one radian against excess, if no swivel is inside the limits: the limb does not flip for a small
+/// gain.
 const PRICE: f64 = 0.03;
 
-/// Swivels at which the excess is looked at first, all round.
+/// Number of swivels, over the full circle, at which the excess is sampled first.
 const COARSE: usize = 16;
 
 /// Sine and cosine of half the angle between them.
@@ -23,15 +23,15 @@ const NARROW: f64 = 1e-7;
 /// The smallest swivel, either way, at which all the joints are inside; `None` if there is none.
 pub(super) fn nearest(sweeps: &[Sweep]) -> Option<f64> {
     let ahead = first(sweeps, 1.0, PI);
-    // Back is of interest only if it is nearer.
+    // The other direction is searched only up to this one.
     match first(sweeps, -1.0, ahead.unwrap_or(PI)) {
         Some(back) => Some(-back),
         None => ahead,
     }
 }
 
-/// The first swivel inside for angles of this sign, up to `most`.
-fn first(sweeps: &[Sweep], sign: f64, most: f64) -> Option<f64> {
+/// The first swivel inside for angles of this sign, up to `max`.
+fn first(sweeps: &[Sweep], sign: f64, max: f64) -> Option<f64> {
     let round = sweeps.iter().all(Sweep::is_round);
     let mut at = 0.0;
     for _ in 0..MAX_STEPS {
@@ -39,7 +39,7 @@ fn first(sweeps: &[Sweep], sign: f64, most: f64) -> Option<f64> {
         for sweep in sweeps {
             next = sweep.next(sign, next)?;
         }
-        if next >= most {
+        if next >= max {
             return None;
         }
         if next == at {
@@ -58,7 +58,7 @@ fn first(sweeps: &[Sweep], sign: f64, most: f64) -> Option<f64> {
     None
 }
 
-/// What is to be small, at one swivel.
+/// The objective at one swivel.
 #[derive(Clone, Copy)]
 struct Cost {
     angle: f64,

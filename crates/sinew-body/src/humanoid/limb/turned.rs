@@ -1,4 +1,5 @@
-//! An arm or a leg whose hand or foot is to have a turn of its own in the world: seven degrees of freedom.
+//! Inverse kinematics of an arm or a leg with a goal for position and orientation of the hand or foot: seven degrees of
+//! freedom.
 
 use super::aim::{Aim, Flexed};
 use super::hinge::{Hinge, Side};
@@ -8,30 +9,31 @@ use crate::humanoid::rotation::{exp, log, swing_twist};
 use crate::humanoid::{Body, Swing};
 use glam::{DQuat, DVec3};
 
-/// The turns that bring a limb to its goal and its hand or foot to the turn wanted.
+/// The joint rotations that bring a limb to its goal and its hand or foot to the wanted orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnedLimb {
-    /// Upper and lower bone. The forearm's turn about itself, which carries the hand, is in `turns.lower`.
+    /// Upper and lower bone. The forearm's twist, which rotates the hand, is in `turns.lower`.
     pub turns: LimbTurns,
-    /// `parent_from_node` of the hand or foot, inside its limit. A wrist does not turn about the forearm's line, an ankle does.
+    /// `parent_from_node` of the hand or foot, inside its limit. A wrist does not twist about the forearm's axis, an
+    /// ankle does.
     pub end: DQuat,
-    /// How far the hand or foot stays from the turn wanted \[rad\].
+    /// Remaining angle between the orientation of the hand or foot and the wanted one \[rad\].
     pub end_miss_rad: f64,
 }
 
-/// How much more the upper joint's limit counts than the wrist's or ankle's, where both cannot be kept.
+/// Weight of the upper joint's limit relative to the wrist's or ankle's, if both cannot be kept.
 const UPPER_WEIGHT: f64 = 4.0;
 
-/// Misses beyond this make a limb that cannot have the turn look for the target once more \[m\].
+/// Position error above which a limb that cannot reach the orientation searches for the position once more \[m\].
 const MISSED: f64 = 1e-9;
 
-/// The turns that bring a limb to its goal with the hand or foot turned as `world_from_end` says; `goal.end` is not read. `None`
-/// when a number is not finite or the limb has no length.
+/// The joint rotations that bring a limb to its goal with the orientation `world_from_end` of the hand or foot;
+/// `goal.end` is not read. `None` when a number is not finite or the limb has no length.
 ///
-/// The wrist's place follows from the goal, the elbow's flexion from the wrist's distance, and the swivel is the nearest to
-/// `goal.near` at which the shoulder, the forearm's turn and the wrist all stay inside their limits; too short a limb keeps the
-/// turn and falls short. Where no swivel is inside, the place goes before the turn: the hand is turned as far as its joints let it,
-/// and the effector comes to the target all the same if it can.
+/// The wrist's place follows from the goal, the elbow's flexion from the wrist's distance, and the swivel is the
+/// nearest to `goal.near` at which the shoulder, the forearm's turn and the wrist all stay inside their limits; a limb
+/// that is too short keeps the orientation and misses the position. If no swivel is inside, position has priority over
+/// orientation: the hand is rotated as far as its joints allow, and the effector still reaches the target if it can.
 ///
 /// ```
 /// use glam::{DQuat, DVec3};
