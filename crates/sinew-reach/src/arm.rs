@@ -10,34 +10,35 @@ use sinew_body::humanoid::{Pose, exp, log};
 #[derive(Clone, Debug)]
 pub(crate) struct Arm {
     pub share: MinimumJerk<f64>,
-    /// Where the target is now, and what is left of where it was.
+    /// The target's present position, and the decaying offset from its previous one.
     pub target: DVec3,
     pub bow: MinimumJerk<DVec3>,
     pub swivel: MinimumJerk<f64>,
     pub girdle: MinimumJerk<DVec3>,
-    /// Shoulder, upper arm, lower arm and hand where the arm is carried.
+    /// Rotations of shoulder, upper arm, lower arm and hand while the arm is carried (does not reach).
     pub carried: [Carried; 4],
-    /// How far the way is led by the joints \[1\], and upper and lower arm at its end.
+    /// Blend from a hand path to joint interpolation \[1\], and the rotations of upper and lower arm at its end.
     pub by_joints: MinimumJerk<f64>,
     pub end: [DQuat; 2],
-    /// The hand's way under `print`, with its start \[s\].
+    /// The hand's path under `print`, with its start \[s\].
     pub printed: Option<(HandPath, f64)>,
 }
 
-/// A joint of a carried arm: a turn, and on it what passes, as a rotation vector.
+/// A joint of a carried arm: a rotation, and a decaying deviation from it as a rotation vector.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Carried {
     base: DQuat,
     passes: MinimumJerk<DVec3>,
-    /// Where it hangs when it has let go.
+    /// The rotation after release.
     home: DQuat,
 }
 
-/// For how long a joint that is taken over in its motion goes on at its speed, in all, and in what time it comes to rest \[s\].
+/// Time for which a joint that is taken over while it moves keeps its speed, total, and the time in which it comes to
+/// rest \[s\].
 const GOES_ON_SECS: f64 = 0.12;
 const RESTS_SECS: f64 = 0.4;
 
-/// Fastest that a joint is taken over \[rad/s\].
+/// Maximum speed with which a joint is taken over \[rad/s\].
 const FASTEST_RAD_S: f64 = 20.0;
 
 impl Carried {
@@ -45,7 +46,7 @@ impl Carried {
         Carried { base: DQuat::IDENTITY, passes: MinimumJerk::rest(log(turn)), home: turn }
     }
 
-    /// The joint of a body that moves: most of what it has passes.
+    /// The joint of a moving body: most of its deviation decays.
     pub fn moving(now: DQuat, velocity: DVec3, share: f64, lasts: f64) -> Carried {
         let turn = log(now);
         Carried {
@@ -59,12 +60,12 @@ impl Carried {
         self.base * exp(self.passes.at(secs))
     }
 
-    /// Where it comes to rest.
+    /// Its rotation at rest.
     pub fn goal(&self) -> DQuat {
         self.base * exp(self.passes.goal())
     }
 
-    /// From now on it is carried as it is just now. `turns`: a moment before, now, and a moment after.
+    /// Carries it from its present rotation on. `turns`: its rotation a moment before, now, and a moment after.
     fn take_over(&mut self, now: f64, turns: [DQuat; 3], moment: f64) {
         let [before, at, after] = turns;
         let (back, on) = (log(at.conjugate() * before), log(at.conjugate() * after));
@@ -81,7 +82,7 @@ impl Carried {
 }
 
 impl Arm {
-    /// An arm that is carried as in a pose.
+    /// An arm carried as in a pose.
     pub fn carried(side: usize, pose: &Pose) -> Arm {
         let rest = MinimumJerk::rest(DVec3::ZERO);
         Arm {
@@ -116,8 +117,8 @@ impl Arm {
         }
     }
 
-    /// Where it is on its way or at a target, it is from now on carried as it is, to set out anew. `turns`: upper arm, lower arm and
-    /// hand a moment before, now, and after.
+    /// If it reaches or holds a target, carries it from its present rotations on, so that it can start anew. `turns`:
+    /// upper arm, lower arm and hand a moment before, now, and after.
     pub fn set_out(&mut self, now: f64, turns: [[DQuat; 3]; 3], moment: f64) {
         for joint in 0..3 {
             self.carried[1 + joint].take_over(now, turns.map(|all| all[joint]), moment);
@@ -127,7 +128,7 @@ impl Arm {
         self.printed = None;
     }
 
-    /// Lets go in so many seconds.
+    /// Releases the target within `for_secs` seconds.
     pub fn let_go(&mut self, now: f64, lasts: f64) {
         self.printed = None;
         self.share.go(now, 0.0, 0.0, lasts);

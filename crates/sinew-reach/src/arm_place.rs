@@ -1,4 +1,4 @@
-//! An arm by closed form: carried along, on its way, or at its target.
+//! The arm in closed form: carried, on its path, or at its target.
 
 use crate::compose::{ARMS, ArmNow, Composed, Now};
 use crate::frame::Frame;
@@ -9,22 +9,22 @@ use sinew_body::humanoid::{Limb, LimbGoal, Limit, Node, exp, log, solve_limb, sw
 
 const ARM_LIMBS: [Limb; 2] = [Limb::LeftArm, Limb::RightArm];
 
-/// The carried arm in the terms of the reaching one.
+/// The carried arm in the parameters of the reaching one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Carried {
     swivel: f64,
     pronation: f64,
-    /// What the usual arm misses of it: rotation vectors of upper and lower arm.
+    /// Its difference from the default arm: rotation vectors of upper and lower arm.
     missing: [DVec3; 2],
 }
 
-/// How far carried arms keep hanging as the trunk bends \[1\].
+/// Share of the trunk's bend by which carried arms keep hanging down \[1\].
 const HANGS: f64 = 0.75;
 
-/// How far they come forward at most, and less than half so far aside: the shoulder's range \[rad\].
+/// Maximum angle by which they come forward, and less than half of it sideways: the shoulder's range \[rad\].
 const MAX_HANG_RAD: f64 = 1.1;
 
-/// An instant of the whole body in which one arm is to be placed differently.
+/// An instant of the whole body in which one arm is replaced.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moment {
     pub arm: ArmNow,
@@ -33,7 +33,7 @@ pub(crate) struct Moment {
 }
 
 impl Frame {
-    /// An instant of the whole body, to place one of its arms differently.
+    /// An instant of the whole body, in which one arm is replaced.
     pub fn moment(&self, side: usize, now: &Now) -> Moment {
         let composed = self.compose(now);
         let mut arm = now.arms[side];
@@ -42,7 +42,7 @@ impl Frame {
         Moment { arm, carried: self.carried(side, &arm).unwrap_or_default(), composed }
     }
 
-    /// Places that arm as `moment.arm` says now; the rest of the body stays, though the balance would follow by millimetres.
+    /// Replaces that arm by `moment.arm`; the rest of the body stays, though its balance would change by millimetres.
     pub fn place_again(&self, side: usize, moment: &mut Moment) {
         let pose = &moment.composed.pose;
         let (hips, chest) = (pose.world[0], pose.world[Node::Chest.index()]);
@@ -50,14 +50,14 @@ impl Frame {
         self.place_arm(side, &moment.arm, &moment.carried, (chest_at, chest), &mut moment.composed);
     }
 
-    /// The turn of a carried upper arm by which it hangs down as the trunk bends, most of the way.
+    /// The rotation of a carried upper arm that keeps it hanging down, mostly, as the trunk bends.
     pub fn hang(&self, arm: &ArmNow, chest: DQuat, swing: DVec3) -> DQuat {
         let girdle = chest * arm.carried[0] * exp(arm.girdle);
         let hang = girdle.conjugate() * swing * -HANGS;
         exp(DVec3::new(soft(hang.x, MAX_HANG_RAD), 0.0, soft(hang.z, 0.4 * MAX_HANG_RAD)))
     }
 
-    /// Upper and lower arm for a hand at a point, by the usual turn and a swivel.
+    /// Upper and lower arm for a hand at a point, by the default rotation and a swivel.
     pub fn arm(
         &self,
         side: usize,
@@ -93,8 +93,8 @@ impl Frame {
         (1.2 * self.folded_m / self.values.arm_m, self.values.stretch.1)
     }
 
-    /// How far the hand may be from the shoulder for a wanted distance \[m\]: not so far that the arm snaps straight, not so near
-    /// that it cannot fold.
+    /// Soft clamp of the distance from shoulder to hand \[m\]: below full extension, where the arm would snap straight,
+    /// and above what the folded arm allows.
     fn within_reach(&self, distance: f64) -> f64 {
         let arm = self.values.arm_m;
         let (far, most) = (self.values.stretch.1 * arm, 0.988 * arm);
@@ -108,7 +108,7 @@ impl Frame {
         }
     }
 
-    /// The carried arm as the closed form would have it, with what that misses.
+    /// The carried arm in closed form, with the remaining difference.
     pub fn carried(&self, side: usize, arm: &ArmNow) -> Option<Carried> {
         if arm.share <= 0.0 {
             return None;
@@ -185,8 +185,8 @@ impl Frame {
     }
 }
 
-/// From one turn of a joint to another by swing and twist from the middle of its range: the range is convex in them, so that
-/// between two turns inside it all are inside.
+/// Interpolates between two rotations of a joint by swing and twist from the middle of its range: the range is convex
+/// in them, so that between two rotations inside it all are inside.
 fn within(limit: &Limit, from: DQuat, to: DQuat, share: f64) -> DQuat {
     let of = |turn: DQuat| swing_twist(limit.centre.conjugate() * turn);
     let ((x, z, twist), (to_x, to_z, to_twist)) = (of(from), of(to));
@@ -194,7 +194,7 @@ fn within(limit: &Limit, from: DQuat, to: DQuat, share: f64) -> DQuat {
     limit.centre * exp(DVec3::new(at(x, to_x), 0.0, at(z, to_z))) * exp(DVec3::Y * at(twist, to_twist))
 }
 
-/// From one rotation to another, the short way.
+/// Interpolates between two rotations along the shorter arc.
 pub(crate) fn between(from: DQuat, to: DQuat, share: f64) -> DQuat {
     (from * exp(log(from.conjugate() * to) * share)).normalize()
 }

@@ -18,21 +18,21 @@ pub(crate) const ARMS: [[Node; 4]; 2] = [
 /// An arm at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ArmNow {
-    /// 0 carried along, 1 at the target.
+    /// 0 carried, 1 at the target.
     pub share: f64,
-    /// Where the hand is to come \[m\].
+    /// Target of the hand \[m\].
     pub target: DVec3,
-    /// How far the way is bowed aside in its middle \[m\].
+    /// Sideways bow of the path at its middle \[m\].
     pub bow: DVec3,
-    /// Turn of the arm about the line from shoulder to hand \[rad\], from the usual one, at the target.
+    /// Swivel of the arm about the line from shoulder to hand \[rad\], relative to the default one, at the target.
     pub swivel: f64,
-    /// Turn of the forearm about itself at the target \[rad\].
+    /// Twist of the forearm at the target \[rad\].
     pub pronation: f64,
     /// Lift and forward turn of the shoulder girdle \[rad\].
     pub girdle: DVec3,
-    /// `parent_from_node` of shoulder, upper arm, lower arm, hand where the arm is carried.
+    /// `parent_from_node` of shoulder, upper arm, lower arm, hand while the arm is carried.
     pub carried: [DQuat; 4],
-    /// How far the way is led by the joints and not by the hand's place \[1\], and upper and lower arm at its end.
+    /// Blend from a path of the hand's position to joint interpolation \[1\], and upper and lower arm at its end.
     pub by_joints: f64,
     pub end: [DQuat; 2],
 }
@@ -44,45 +44,46 @@ pub(crate) struct Now {
     pub feet: [Foot; 2],
     pub foot_yaw: [f64; 2],
     pub knee_turn: [f64; 2],
-    /// What flat feet carry, and feet on their toes.
+    /// Support of flat feet, and of feet on their toes.
     pub support: [Support; 2],
     pub twist: f64,
     pub swing: DVec3,
     pub squat: f64,
-    /// How far the body rises on its toes, with the lean before it \[rad\].
+    /// Heel rise of a body on its toes, including the lean before it \[rad\].
     pub tiptoe: f64,
-    /// How far heels rise as ankles ask for it \[1\]: not yet in the pose that a reach begins in.
+    /// Blend of the heel rise that ankle flexion requires \[1\]: 0 in the initial pose of a reach.
     pub heels: f64,
-    /// Left over from the start: hips' shift and turn, then chest, neck, head.
+    /// Decaying rest of the initial pose: hips' shift and rotation, then chest, neck, head.
     pub hips_shift: DVec3,
     pub hips_turn: DVec3,
     pub trunk: [DVec3; 3],
     pub look_at: DVec3,
     pub look: f64,
     pub arms: [ArmNow; 2],
-    /// Where the root is led ahead of the balance \[m\].
+    /// Offset of the root ahead of the balance \[m\].
     pub lean: DVec3,
 }
 
-/// A pose and what was found on the way.
+/// A pose and by-products of its computation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Composed {
     pub pose: Pose,
     /// Centre of either hand \[m\].
     pub hands: [DVec3; 2],
-    /// Distance from the shoulder joint to where the hand should be \[1 of the arm's length\].
+    /// Distance from the shoulder joint to the hand's target \[1 of the arm's length\].
     pub stretch: [f64; 2],
     /// Shoulder joints \[m\].
     pub shoulders: [DVec3; 2],
 }
 
-/// Rounds in which hips and heels find their place under the centre of mass; each leaves less than a tenth of the error.
+/// Iterations that place hips and heels under the centre of mass; each leaves less than a tenth of the error.
 const ROUNDS: usize = 4;
 
 /// The hips move more than the centre of mass: the feet stay.
 const GAIN: f64 = 1.18;
 
-/// Where the centre of mass is let go without correction \[1 of the support's radius\], and how far it may be pushed out.
+/// Distance from the middle up to which the centre of mass is not corrected \[1 of the support's radius\], and its
+/// maximum.
 const FREE: f64 = 0.35;
 const MOST: f64 = 0.72;
 
@@ -100,7 +101,7 @@ impl Frame {
         let chest = hips * (plain.conjugate() * chest * exp(now.trunk[0]));
         set(Node::Hips, hips);
         set(Node::Chest, chest);
-        // Where the trunk's joints are from the hips.
+        // Positions of the trunk's joints relative to the hips.
         let offset = |node: Node| self.body.link(node).offset;
         let chest_at = hips * offset(Node::Chest);
         let neck_at = chest_at + chest * offset(Node::Neck);
@@ -117,7 +118,8 @@ impl Frame {
             let feet = [0, 1].map(|side| raised(now.feet[side], self.toes[side], heels[side].pitch_rad));
             hips_at.y = self.hips_height(now, &feet, hips, hips_at);
             composed.pose.hips_position = hips_at;
-            // Head and arms ride along in between: what that misplaces the centre of mass by is a millimetre or two.
+            // Head and arms move rigidly with the trunk between iterations: the error of the centre of mass is a
+            // millimetre or two.
             if round == 0 || round + 1 == ROUNDS {
                 let eye = chest.conjugate() * (now.look_at - hips_at - neck_at);
                 let (neck, head) = look(eye, now.look);
@@ -135,7 +137,7 @@ impl Frame {
                 if self.has_heels {
                     heels = [0, 1].map(|side| self.heel(side, now, (hips_at, hips)));
                 }
-                // Where the led hips would have it, pulled into the support.
+                // The centre of mass of the hips before balance, pulled into the support.
                 let centre = self.body.centre_of_mass(&composed.pose);
                 let led = *led.get_or_insert(centre);
                 let miss = over_support(now, led, 0.5 * (heels[0].forward + heels[1].forward)) - centre;
@@ -145,7 +147,7 @@ impl Frame {
         composed
     }
 
-    /// About where a shoulder joint is at an instant, before any balance \[m\].
+    /// Approximate position of a shoulder joint at an instant, before balance \[m\].
     pub fn led_shoulder(&self, side: usize, now: &Now) -> DVec3 {
         let yaw = now.support[0].yaw_rad;
         let [hips_twist, ..] = twist_shares(now.twist);
@@ -162,24 +164,24 @@ impl Frame {
             + girdle * self.body.link(upper).offset
     }
 
-    /// The hips led by the step, EQ8 and the lean, before any balance.
+    /// Position of the hips by the step, EQ8 and the lean, before balance.
     fn led_hips(&self, now: &Now) -> DVec3 {
         let turn = DQuat::from_rotation_y(now.support[0].yaw_rad);
         now.support[0].rest - turn * self.rest_com + root_shift(now.swing, &self.values) + now.lean + now.hips_shift
     }
 }
 
-/// Where a centre of mass may be that the led hips would have at a place: itself near the middle of the support, pulled in farther
-/// out; over the toes as far as the weight goes forward.
+/// Soft clamp of a centre of mass to the support: unchanged near the middle, pulled in farther out; over the toes as
+/// far as the weight goes forward.
 fn over_support(now: &Now, led: DVec3, forward: f64) -> DVec3 {
     let [flat, toes] = &now.support;
     let out = DVec3::new(led.x - flat.centre.x, 0.0, led.z - flat.centre.z);
-    // What is left of the start's shift is not the balance's business: a walking body is not balanced.
+    // The rest of the initial shift is excluded from balance: a walking body is not balanced.
     let start = DVec3::new(now.hips_shift.x, 0.0, now.hips_shift.z);
     let out = out - start;
     let length = out.length();
     let radius = flat.radius_m + (toes.radius_m - flat.radius_m) * forward;
-    // On the toes there is less to play with.
+    // On the toes the support is smaller.
     let radius = radius * (1.0 - 0.5 * forward);
     let (free, most) = (FREE * radius, MOST * radius);
     let held = if length <= free { length } else { free + (most - free) * libm::tanh((length - free) / (most - free)) };

@@ -1,4 +1,4 @@
-//! Where the feet are: planted, or on their way in a step; and what they carry.
+//! The feet: planted or in a step, and the support that they give.
 
 use crate::minimum_jerk::{MinimumJerk, arc, eased};
 use glam::{DQuat, DVec3};
@@ -9,57 +9,57 @@ use sinew_body::humanoid::{Body, Node, Sole};
 pub struct Placement {
     /// The ankle \[m\].
     pub ankle: DVec3,
-    /// Where the toes point \[rad about +Y from +Z to +X\].
+    /// Heading of the toes \[rad about +Y from +Z to +X\].
     pub yaw_rad: f64,
 }
 
-/// A foot on its way from one placement to the next.
+/// A stride: one foot from a placement to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stride {
     /// 0 left, 1 right.
     pub side: usize,
     /// Where it lands.
     pub to: Placement,
-    /// When it leaves \[s\].
+    /// Lift-off time \[s\].
     pub start_secs: f64,
-    /// How long it is off the floor \[s\].
+    /// Duration of the swing phase \[s\].
     pub for_secs: f64,
-    /// How high the ankle rises on the way \[m\].
+    /// Maximum height of the ankle during the swing \[m\].
     pub lift_m: f64,
 }
 
-/// What two planted feet carry: the centre of mass may be within a disc.
+/// Support of two planted feet: a disc for the centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
     /// Its middle, on the floor \[m\].
     pub centre: DVec3,
-    /// Where the centre of mass is at rest, a little behind the middle \[m\].
+    /// Position of the centre of mass at rest, a little behind the middle \[m\].
     pub rest: DVec3,
     /// Radius of the largest disc about the middle inside the soles' hull \[m\].
     pub radius_m: f64,
-    /// Where the pelvis faces: the mean of the feet \[rad\].
+    /// Heading of the pelvis: the mean of the feet \[rad\].
     pub yaw_rad: f64,
 }
 
-/// How long an arm swings for a stride \[1 of the stride's time\]: up to the landing forward, then back.
+/// Duration of the arm swing of a stride \[1 of the stride's time\]: forward until landing, then back.
 const LINGERS: f64 = 2.0;
 
-/// Most strides that are planned ahead.
+/// Maximum number of strides planned ahead.
 pub const MAX_STRIDES: usize = 96;
 
 /// Both feet over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feet {
     soles: [Sole; 2],
-    /// Where they were before the strides.
+    /// Placements before the strides.
     pub(crate) planted: [Placement; 2],
     strides: Vec<Stride>,
-    /// What feet carry before the strides and after each, flat and on their toes.
+    /// Support before the strides and after each, flat and on the toes.
     stances: Vec<[Support; 2]>,
-    /// What is left of where the feet were when the reach began: shift \[m\] and turn (world) of each.
+    /// Decaying rest of the initial placement: shift \[m\] and rotation (world) of each foot.
     pub(crate) rests: [(MinimumJerk<DVec3>, MinimumJerk<DVec3>); 2],
     linear: bool,
-    /// A stride that belongs to the start and is not forgotten.
+    /// Strides that belong to the start and are not dropped on a new goal.
     closing: Option<Stride>,
 }
 
@@ -79,12 +79,12 @@ impl Feet {
         feet
     }
 
-    /// The strides that are planned or under way.
+    /// Strides planned or in progress.
     pub fn strides(&self) -> &[Stride] {
         &self.strides
     }
 
-    /// Adds a stride after the others. False when there are too many.
+    /// Appends a stride. False when the maximum number is planned.
     pub(crate) fn push(&mut self, stride: Stride) -> bool {
         let fits = self.strides.len() < MAX_STRIDES;
         if fits {
@@ -94,12 +94,12 @@ impl Feet {
         fits
     }
 
-    /// The strides so far belong to the start: they are not forgotten.
+    /// Marks the strides so far as part of the start: they are not dropped on a new goal.
     pub(crate) fn keep_closing(&mut self) {
         self.closing = self.strides.last().copied();
     }
 
-    /// Forgets strides that have not begun.
+    /// Drops strides that have not begun.
     pub(crate) fn stop(&mut self, secs: f64) {
         let before = self.strides.len();
         let closing = self.closing;
@@ -120,7 +120,7 @@ impl Feet {
         }
     }
 
-    /// Takes strides that are over, and the arms' swing with them, into the planted feet.
+    /// Merges completed strides and their arm swing into the planted feet.
     pub(crate) fn settle(&mut self, secs: f64) {
         let before = self.strides.len();
         let planted = &mut self.planted;
@@ -136,19 +136,19 @@ impl Feet {
         }
     }
 
-    /// When the last foot lands \[s\]; none when all stand.
+    /// Landing time of the last stride \[s\]; `None` if both feet stand.
     pub fn lands_secs(&self) -> Option<f64> {
         self.strides.iter().map(|stride| stride.start_secs + stride.for_secs).reduce(f64::max)
     }
 
-    /// Whether both feet stand at a time \[s\], and those of the start have come to rest.
+    /// Whether both feet stand at a time \[s\] and the rest of the initial placement has decayed.
     pub fn stand(&self, secs: f64) -> bool {
         let is_off = |stride: &Stride| stride.start_secs < secs && secs < stride.start_secs + stride.for_secs;
         !self.strides.iter().any(is_off)
             && self.rests.iter().all(|(shift, turn)| secs >= shift.end_secs() && secs >= turn.end_secs())
     }
 
-    /// Where both feet stand when all strides are over.
+    /// Placements after all strides.
     pub fn last(&self) -> [Placement; 2] {
         let mut planted = self.planted;
         for stride in &self.strides {
@@ -174,7 +174,7 @@ impl Feet {
         (at.ankle + shift.at(secs), turned.normalize())
     }
 
-    /// How far a foot in the air has come, and how high it is: a convex arc, under `print` of two straight pieces.
+    /// Progress and height of a swinging foot: a convex arc, under `print` of two straight pieces.
     fn profile(&self, share: f64) -> (f64, f64) {
         if self.linear {
             let share = share.clamp(0.0, 1.0);
@@ -184,17 +184,17 @@ impl Feet {
         }
     }
 
-    /// What a pair of planted feet carries.
+    /// The support of a pair of planted feet.
     pub fn support_of(&self, feet: &[Placement; 2]) -> Support {
         self.bearing(feet, false)
     }
 
-    /// What they carry flat, and what on their toes.
+    /// The support flat, and on the toes.
     pub(crate) fn supports_of(&self, feet: &[Placement; 2]) -> [Support; 2] {
         [self.bearing(feet, false), self.bearing(feet, true)]
     }
 
-    /// What they carry by the whole soles, or from the balls forward.
+    /// The support of whole soles, or from the balls forward.
     fn bearing(&self, feet: &[Placement; 2], on_toes: bool) -> Support {
         let soles = self.soles.map(|sole| Sole { heel_m: if on_toes { sole.ball_m() } else { sole.heel_m }, ..sole });
         let middle = |side: usize, along: f64| {
@@ -217,12 +217,12 @@ impl Feet {
         Support { centre, rest: mean(0.30), radius_m: inner_radius(&corners, centre).max(0.02), yaw_rad }
     }
 
-    /// What the feet carry at a time \[s\], flat: from stance to stance as the strides go.
+    /// The support at a time \[s\], flat: interpolated from stance to stance during strides.
     pub fn support(&self, secs: f64) -> Support {
         self.supports(secs)[0]
     }
 
-    /// What they carry at a time \[s\] flat, and on their toes.
+    /// The support at a time \[s\], flat and on the toes.
     pub(crate) fn supports(&self, secs: f64) -> [Support; 2] {
         let mut total = self.stances[0];
         let mut stands = self.planted;
@@ -236,7 +236,7 @@ impl Feet {
             for on in 0..2 {
                 let (now, next) = (&self.stances[index][on], &self.stances[index + 1][on]);
                 let total = &mut total[on];
-                // The weight goes over the foot that stands, not all the way: a step is a fall that is caught.
+                // The weight shifts only partly over the standing foot: a step is a controlled fall.
                 let over = stands[1 - stride.side].ankle - self.stances[index][0].centre;
                 let sway = DVec3::new(over.x, 0.0, over.z) * (SWAY * arc(share.min(1.0)));
                 total.centre += (next.centre - now.centre) * go + sway;
@@ -248,8 +248,8 @@ impl Feet {
         total
     }
 
-    /// How far an arm swings forward with the strides at a time \[s\], as for usual steps: with the leg of the other side, to
-    /// its end where that foot lands \[1\].
+    /// Arm swing at a time \[s\], relative to that of a usual step: forward with the opposite leg, with its maximum
+    /// when that foot lands \[1\].
     pub(crate) fn arm_swing(&self, side: usize, secs: f64, usual_step_m: f64) -> f64 {
         let mut from = self.planted;
         let mut swing = 0.0;
@@ -268,10 +268,10 @@ impl Feet {
     }
 }
 
-/// How far the weight goes over the standing foot in a step \[1 of the way\].
+/// Share of the weight shift over the standing foot in a step \[1\].
 const SWAY: f64 = 0.35;
 
-/// How far a point lies inside the hull of the soles, over the floor \[m\].
+/// Distance of a point inside the hull of the soles, on the floor \[m\].
 fn inner_radius(soles: &[[DVec3; 4]; 2], point: DVec3) -> f64 {
     // The hull of two convex shapes: its support in every direction is the larger of theirs.
     let mut least = f64::INFINITY;

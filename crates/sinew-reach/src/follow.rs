@@ -1,19 +1,19 @@
-//! Targets that move: the hand follows at once, the body is planned anew from time to time.
+//! Moving targets: the hand follows at once, the body is replanned from time to time.
 
 use crate::reacher::{Goal, Reacher};
 use glam::DVec3;
 
-/// How far a target moves before the body is planned anew \[m\], and how often at most \[s\].
+/// Distance that a target moves before the body is replanned \[m\], and the minimum time between two plans \[s\].
 const MOVED_M: f64 = 0.015;
 const EVERY_SECS: f64 = 0.1;
 
-/// How far ahead the body looks where the target will be \[s\].
+/// Time by which the body's plan predicts the target's motion \[s\].
 const AHEAD_SECS: f64 = 0.5;
 
 impl Reacher {
-    /// The targets are here now. Give them for every frame while they move; a hand that has no target yet needs
-    /// [`Reacher::reach`] first. The hand stays on a target that moves smoothly; one that jumps is given with
-    /// [`Reacher::reach`], which glides there.
+    /// Sets the present positions of moving targets. Call it for every frame while they move; a hand without a target
+    /// needs [`Reacher::reach`] first. The hand stays on a target that moves smoothly; for one that jumps call
+    /// [`Reacher::reach`], which moves there smoothly.
     pub fn follow(&mut self, goal: &Goal) {
         let now = self.now_secs;
         let targets = [goal.left, goal.right];

@@ -1,41 +1,42 @@
-//! A body with what composing poses needs to know about it.
+//! A body with precomputed constants for composing poses.
 
 use crate::compose::ARMS;
 use crate::{Style, Values};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, Limit, Node, Pose, Sole};
 
-/// A body with what composing needs to know about it.
+/// A body with precomputed constants for composing poses.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub body: Body,
-    /// The same without limits where a swivel is chosen here.
+    /// The same without limits, for limbs whose swivel is chosen here.
     pub free: Body,
     pub values: Values,
-    /// Hips over the ankles, standing easily \[m\].
+    /// Height of the hips above the ankles in relaxed standing \[m\].
     pub stand_m: f64,
     /// From the ankles' middle to the hips over the ground, standing \[m\].
     pub rest_com: DVec3,
     pub effector: [DVec3; 2],
-    /// The arm straight ahead, from which its usual turn follows for every direction.
+    /// The arm straight ahead, which defines its default rotation for every direction.
     pub usual: [DQuat; 2],
-    /// How far a hand is from its shoulder when the arm is folded \[m\].
+    /// Distance from shoulder to hand of the folded arm \[m\].
     pub folded_m: f64,
-    /// The highest that a hand comes over the floor, on the toes, shoulder lifted, arm straight up, and a little more \[m\].
+    /// Maximum height of a hand above the floor, on the toes, shoulder lifted, arm straight up, with a small margin
+    /// \[m\].
     pub highest_m: f64,
     /// Ankle over the sole \[m\].
     pub ankle_m: f64,
-    /// About what feet rise on their toes, in their frames \[m\].
+    /// The axis about which feet rise on their toes, in their frames \[m\].
     pub toes: [DVec3; 2],
-    /// Whether heels rise at all; the print's do not.
+    /// Whether heels rise; not under `print`.
     pub has_heels: bool,
-    /// The body with limits a little narrower, for plans.
+    /// The body with slightly narrower limits, for plans.
     pub tight: Body,
-    /// Limits within which joints are at ease.
+    /// Comfortable joint limits.
     pub easy: Body,
 }
 
-/// Share of a leg's length at which it counts as stretched, and how softly that is met \[m\].
+/// Share of a leg's length at which it counts as stretched, and the width of the soft clamp \[m\].
 pub(crate) const STRETCHED: f64 = 0.997;
 pub(crate) const SOFT_M: f64 = 0.003;
 
@@ -80,10 +81,10 @@ impl Frame {
     }
 }
 
-/// Limits that a plan keeps are narrower than the body's by this \[rad\], so that what happens on the way has room.
+/// Margin by which the limits of a plan are narrower than the body's \[rad\], as reserve for the motion.
 const SPARE_RAD: f64 = 0.045;
 
-/// Share of its range in which a joint is at ease \[1\].
+/// Share of its range in which a joint is comfortable \[1\].
 const EASY: f64 = 0.8;
 
 fn tightened(body: &Body, share: f64, spare_rad: f64) -> Body {

@@ -1,8 +1,8 @@
-//! The hand's way under `print`: EQ1 to EQ4, Algorithm 1.
+//! The hand's path under `print`: EQ1 to EQ4, Algorithm 1.
 //!
-//! The hand starts at full speed and slows down in the last part. Its acceleration jumps, at the start also its speed; the default
-//! therefore goes by minimum jerk instead ([`MinimumJerk`](crate::MinimumJerk)). Algorithm 1 as printed divides the vector v_s before it is
-//! set; here EQ1 comes first.
+//! The hand starts at full speed and slows down in the last part. Its acceleration jumps, at the start also its speed;
+//! the default therefore uses minimum jerk instead ([`MinimumJerk`](crate::MinimumJerk)). Algorithm 1 as printed
+//! divides the vector v_s before it is set; here EQ1 comes first.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ pub const PRINTED_SPEED_M_S: f64 = 0.2;
 /// r_s of the paper \[1\].
 pub const PRINTED_RATIO: f64 = 0.8;
 
-/// A straight way with an ease-out.
+/// A straight path with an ease-out.
 ///
 /// ```
 /// use glam::DVec3;
@@ -38,7 +38,7 @@ pub struct HandPath {
 }
 
 impl HandPath {
-    /// The way from a point to another \[m\] with a start speed \[m/s\] and the ratio r_s, 0 to 1 (excluded).
+    /// The path from one point to another \[m\] with a start speed \[m/s\] and the ratio r_s, 0 to 1 (excluded).
     pub fn new(from: DVec3, to: DVec3, speed_m_s: f64, ratio: f64) -> HandPath {
         let way = to - from;
         let velocity = way.normalize_or_zero() * speed_m_s; // EQ1
@@ -48,7 +48,7 @@ impl HandPath {
         HandPath { from, way, velocity, deceleration, ratio, total_secs }
     }
 
-    /// Where the hand is \[m\]; EQ3 at the end.
+    /// Position of the hand \[m\]; EQ3 at the end.
     pub fn at(&self, secs: f64) -> DVec3 {
         let secs = secs.clamp(0.0, self.total_secs);
         let slow = (secs - self.total_secs * self.ratio).max(0.0);
@@ -63,7 +63,7 @@ impl HandPath {
         self.velocity + self.deceleration * (secs - self.total_secs * self.ratio).max(0.0)
     }
 
-    /// Share of the way that is done.
+    /// Share of the path that is done.
     pub fn share_at(&self, secs: f64) -> f64 {
         let length_squared = self.way.length_squared();
         if length_squared > 0.0 { (self.at(secs) - self.from).dot(self.way) / length_squared } else { 1.0 }

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::exp;
 
-/// How far the head turns against the chest, neck and head together \[rad\]: to a side, up, down.
+/// Maximum rotation of the head relative to the chest, neck and head together \[rad\]: sideways, up, down.
 const MAX_SIDE_RAD: f64 = 1.15;
 const MAX_UP_RAD: f64 = 0.95;
 const MAX_DOWN_RAD: f64 = 0.85;
@@ -11,10 +11,10 @@ const MAX_DOWN_RAD: f64 = 0.85;
 /// Share of the turn that the neck takes.
 const NECK_SHARE: f64 = 0.45;
 
-/// The turns of neck and head, `parent_from_node`, that bring the face from straight ahead a share of the way (0 in the start
-/// phase, 1 when tracking) to d_t = p_e − p_n, given in the chest's frame.
+/// The rotations of neck and head, `parent_from_node`, that turn the face from straight ahead a share of the way (0 in
+/// the start phase, 1 when tracking) to d_t = p_e − p_n, given in the chest's frame.
 ///
-/// What lies behind is not looked at over the shoulder: the turn fades as the target comes round.
+/// A target behind the body is not looked at over the shoulder: the rotation fades as the target moves behind.
 pub fn look(chest_from_target: DVec3, share: f64) -> (DQuat, DQuat) {
     let d = chest_from_target;
     let level = (d.x * d.x + d.z * d.z).sqrt();
@@ -23,7 +23,7 @@ pub fn look(chest_from_target: DVec3, share: f64) -> (DQuat, DQuat) {
         return (DQuat::IDENTITY, DQuat::IDENTITY);
     }
     let side = libm::atan2(d.x, d.z);
-    // Straight overhead no side is meant; straight behind both are.
+    // Straight overhead the side is undefined; straight behind it is ambiguous.
     let meant = smooth(level / length, 0.1, 0.5) * (1.0 - smooth(side.abs(), 1.9, 3.0));
     let up = libm::atan2(d.y, level.max(1e-9)) * (1.0 - 0.7 * smooth(side.abs(), 1.9, 3.0));
     let side = soft(side, MAX_SIDE_RAD) * meant;
@@ -33,7 +33,7 @@ pub fn look(chest_from_target: DVec3, share: f64) -> (DQuat, DQuat) {
     (exp(turn * NECK_SHARE), exp(turn * (1.0 - NECK_SHARE)))
 }
 
-/// The value, slowing down towards a limit.
+/// Soft clamp of a value to a limit.
 pub(crate) fn soft(value: f64, most: f64) -> f64 {
     let from = 0.6 * most;
     if value.abs() <= from {

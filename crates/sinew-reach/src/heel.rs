@@ -1,39 +1,39 @@
-//! Heels that rise: in a deep squat, behind a long step, and to reach up.
+//! Heel rise: in a deep squat, behind a long step, and to reach up.
 //!
-//! The print's feet stay flat. A person's ankle bends some 40°, then the heel comes up; before it does, the weight goes over the
-//! balls of the feet. Our foot is one piece: it turns about the front edge of its sole, which stays where it is, and counts as bearing
-//! from the ball to that edge, as far as a foot with toes that bend would.
+//! Under `print` feet stay flat. A person's ankle flexes by some 40°, then the heel rises; before it does, the weight
+//! shifts over the balls of the feet. Our foot is one piece: it rotates about the front edge of its sole, which stays
+//! in place, and gives support from the ball to that edge, as a foot with toes would.
 
 use crate::head::smooth;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::exp;
 
-/// Bend of the ankle from which the heel rises \[rad\], how softly, and how much it rises for what is beyond.
+/// Ankle flexion from which the heel rises \[rad\], the width of the transition, and the rise per flexion beyond it.
 const ANKLE_RAD: f64 = 0.6;
 const SOFTLY_RAD: f64 = 0.16;
 const RISES: f64 = 1.4;
 
-/// Bend of the ankle before that at which the weight begins to go forward \[rad\].
+/// Ankle flexion, relative to that one, at which the weight begins to shift forward \[rad\].
 const LEANS_RAD: f64 = 0.45;
 
-/// First part of a rise on the toes, in which only the weight goes forward \[rad\].
+/// First part of a rise on the toes, in which only the weight shifts forward \[rad\].
 pub(crate) const LEAN_FIRST_RAD: f64 = 0.15;
 
-/// How far a foot rises on its toes \[rad\].
+/// Maximum heel rise on the toes \[rad\].
 pub(crate) const MAX_RAD: f64 = 0.6;
 
 /// A heel at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Heel {
-    /// How far the foot is turned up about its toes \[rad\].
+    /// Rotation of the foot about its toes \[rad\].
     pub pitch_rad: f64,
-    /// How far the weight is over the ball of the foot \[1\].
+    /// Shift of the weight to the ball of the foot \[1\].
     pub forward: f64,
 }
 
 impl Heel {
-    /// The heel of an ankle that would be bent so far on a flat foot \[rad\], obeying that so far \[1\], of a body that rises so far
-    /// on its toes \[rad\].
+    /// The heel for an ankle flexion on a flat foot \[rad\], weighted by a blend \[1\], of a body that rises on its
+    /// toes by an angle \[rad\].
     pub fn of(bend_rad: f64, obeys: f64, tiptoe_rad: f64) -> Heel {
         let squats = obeys * smooth(bend_rad, ANKLE_RAD - LEANS_RAD, ANKLE_RAD + 0.5 * SOFTLY_RAD);
         let stretches = smooth(tiptoe_rad, 0.0, LEAN_FIRST_RAD);
@@ -41,7 +41,7 @@ impl Heel {
         Heel { pitch_rad: crate::head::soft(pitch, 1.25 * MAX_RAD), forward: 1.0 - (1.0 - squats) * (1.0 - stretches) }
     }
 
-    /// What of it is meant to lift the body \[rad\].
+    /// The part of it that lifts the body \[rad\].
     pub fn tiptoe(tiptoe_rad: f64) -> f64 {
         ramp(tiptoe_rad - 0.7 * LEAN_FIRST_RAD, 0.6 * LEAN_FIRST_RAD)
     }
@@ -60,7 +60,7 @@ fn ramp(value: f64, width: f64) -> f64 {
     }
 }
 
-/// A foot (ankle, `world_from_foot`) whose heel has come up.
+/// A foot (ankle, `world_from_foot`) with its heel raised.
 pub(crate) fn raised(foot: (DVec3, DQuat), toe: DVec3, pitch_rad: f64) -> (DVec3, DQuat) {
     if pitch_rad <= 0.0 {
         return foot;

@@ -1,4 +1,4 @@
-//! A leg by closed form, and the height of the hips that it allows.
+//! The leg in closed form, and the height of the hips that it allows.
 
 use crate::compose::Now;
 use crate::frame::{Frame, SOFT_M, STRETCHED};
@@ -11,7 +11,7 @@ const LEG_LIMBS: [Limb; 2] = [Limb::LeftLeg, Limb::RightLeg];
 /// A foot: its ankle \[m\] and `world_from_foot`.
 pub(crate) type Foot = (DVec3, DQuat);
 
-/// A leg bent for its foot.
+/// A leg solved for its foot.
 struct Bent {
     /// From the hip joint to knee and ankle \[m\].
     knee: DVec3,
@@ -21,7 +21,7 @@ struct Bent {
 }
 
 impl Frame {
-    /// As high as wanted, as low as the legs need \[m\].
+    /// Wanted height, lowered to what the legs can reach \[m\].
     pub fn hips_height(&self, now: &Now, feet: &[Foot; 2], hips: DQuat, hips_at: DVec3) -> f64 {
         let risen = self.rises_m(Heel::tiptoe(now.tiptoe));
         let wanted = now.support[0].centre.y + self.ankle_m + self.stand_m - now.squat + risen + now.hips_shift.y;
@@ -40,7 +40,7 @@ impl Frame {
         lowest - SOFT_M * libm::log(sum)
     }
 
-    /// How much higher an ankle is on its toes \[m\].
+    /// Rise of an ankle on its toes \[m\].
     fn rises_m(&self, pitch_rad: f64) -> f64 {
         let toe = self.toes[0];
         let (sin, cos) = libm::sincos(pitch_rad);
@@ -55,7 +55,8 @@ impl Frame {
         Heel::of(libm::atan2(shank.z, shank.y), now.heels, now.tiptoe)
     }
 
-    /// A leg by the law of cosines, its knee over the toes. Unlike an arm it is met up to its full length: the hips keep within it.
+    /// A leg by the law of cosines, its knee over the toes. Unlike an arm it is exact up to its full length: the hips
+    /// are kept within it.
     pub fn place_leg(&self, side: usize, now: &Now, foot: Foot, hips: (DVec3, DQuat), pose: &mut Pose) {
         let [upper, lower, end] = LEG_LIMBS[side].nodes();
         pose.world[end.index()] = foot.1;

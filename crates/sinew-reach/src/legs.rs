@@ -3,7 +3,7 @@
 use crate::{Rng, Values};
 use glam::DVec3;
 
-/// How a step is taken.
+/// The kind of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepKind {
     /// One foot goes forward, the other stays.
@@ -22,7 +22,7 @@ impl StepKind {
     }
 }
 
-/// A step that is to be taken.
+/// The decision to take a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepChoice {
     /// Half or full.
@@ -31,26 +31,26 @@ pub struct StepChoice {
     pub length_m: f64,
 }
 
-/// EQ6: the direction over the ground in which a target lies, a unit vector; none for one straight above or below.
+/// EQ6: the direction over the ground in which a target lies, a unit vector; `None` for one straight above or below.
 pub fn ground_direction(d: DVec3) -> Option<DVec3> {
     let flat = DVec3::new(d.x, 0.0, d.z);
     let length = (d.x * d.x + d.z * d.z).sqrt();
     (length > 1e-9 && length.is_finite()).then(|| flat / length)
 }
 
-/// How likely a step is: 0 within d_c, 1 beyond d_max, (d − d_c) / (d_max − d_c) between.
+/// Probability of a step: 0 within d_c, 1 beyond d_max, (d − d_c) / (d_max − d_c) between.
 pub fn step_probability(distance_m: f64, values: &Values) -> f64 {
     let (near, far) = (values.convenient_m, values.maximal_m);
     ((distance_m - near) / (far - near)).clamp(0.0, 1.0)
 }
 
-/// P_half: how likely a step is a half one, from P_max at d_c to P_min at d_max.
+/// P_half: probability that a step is a half one, from P_max at d_c to P_min at d_max.
 pub fn half_probability(distance_m: f64, values: &Values) -> f64 {
     let share = step_probability(distance_m, values);
     values.half_step_most + (values.half_step_least - values.half_step_most) * share
 }
 
-/// EQ9: how long a step is \[m\]. `p` is the random number, in (0, 1).
+/// EQ9: length of a step \[m\]. `p` is the random number, in (0, 1).
 pub fn step_length(distance_m: f64, p: f64, values: &Values) -> f64 {
     let (d, near, far) = (distance_m, values.convenient_m, values.maximal_m);
     let (short, long) = (values.shortest_step_m, values.longest_step_m);
@@ -70,7 +70,7 @@ pub fn step_bias(rng: &mut Rng, values: &Values) -> f64 {
     rng.normal(mean, deviation).clamp(0.02, 0.98)
 }
 
-/// The stepping decision: whether the target's horizontal distance from the shoulder \[m\] asks for a step, and for which.
+/// The stepping decision: whether the target's horizontal distance from the shoulder \[m\] requires a step, and which.
 ///
 /// ```
 /// use sinew_body::humanoid::Body;
@@ -80,7 +80,7 @@ pub fn step_bias(rng: &mut Rng, values: &Values) -> f64 {
 /// assert!(decide_step(1.2, &mut Rng::new(1), &values).is_some());
 /// ```
 pub fn decide_step(distance_m: f64, rng: &mut Rng, values: &Values) -> Option<StepChoice> {
-    // All three are drawn in any case: the choices of one seed then stay comparable.
+    // All three numbers are always drawn, so that the choices of one seed stay comparable.
     let (steps, halves, bias) = (rng.unit(), rng.unit(), step_bias(rng, values));
     if distance_m <= values.convenient_m || steps >= step_probability(distance_m, values) {
         return None;

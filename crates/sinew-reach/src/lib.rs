@@ -1,13 +1,14 @@
 //! Reaching: arms, spine, head and legs bring a hand to any target together (Huang, Kapadia, Terzopoulos 2011, *Full-Body Hybrid
 //! Motor Control for Reaching*).
 //!
-//! A [`Reacher`] is a source of poses. It plans the whole way when it is given a [`Goal`]: whether to step and how
-//! ([`decide_step`]), how far the spine twists and swings, how far the hips sink, and where the elbow goes. From then on every
-//! pose is a closed form of the time, and every control a [`MinimumJerk`] that can be sent elsewhere at any moment.
+//! A [`Reacher`] is a source of poses. It plans the whole motion when it is given a [`Goal`]: whether to step and how
+//! ([`decide_step`]), how far the spine twists and swings, how far the hips sink, and where the elbow goes. From then
+//! on every pose is a closed form of the time, and every control a [`MinimumJerk`] that can be redirected at any
+//! moment.
 //!
 //! | job | file |
 //! |---|---|
-//! | arm: the hand's way (EQ1 to 4), two-bone limb | `hand_path.rs`, `arm.rs`, `compose.rs` |
+//! | arm: the hand's path (EQ1 to 4), two-bone limb | `hand_path.rs`, `arm.rs`, `compose.rs` |
 //! | spine: twist (EQ5, EQ6), swing (EQ7), root (EQ8) | `spine.rs` |
 //! | head | `head.rs` |
 //! | legs: whether and how far to step (EQ9), strides | `legs.rs`, `walk.rs`, `feet.rs` |
@@ -15,7 +16,7 @@
 //! | open values | `values.rs` |
 //! | the pose it begins in; goals | `start.rs`, `reacher.rs` |
 //!
-//! This crate knows nothing of worlds and engines.
+//! This crate does not know worlds and engines.
 
 mod arm;
 mod arm_place;

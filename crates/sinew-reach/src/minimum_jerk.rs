@@ -1,8 +1,8 @@
-//! A value that goes from wherever it is, however it moves, to where it is wanted, without a kink.
+//! A minimum-jerk trajectory that can be redirected at any time without a jump in value, velocity or acceleration.
 
 use std::ops::{Add, Mul, Sub};
 
-/// What can glide: numbers and vectors.
+/// Types that can be interpolated: numbers and vectors.
 pub trait Value:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> + PartialEq + Default
 {
@@ -10,7 +10,7 @@ pub trait Value:
 
 impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T> + PartialEq + Default> Value for T {}
 
-/// A value over time: at rest, or on its way along a polynomial of fifth degree whose value, velocity and acceleration are
+/// A value over time: at rest, or along a polynomial of fifth degree whose value, velocity and acceleration are
 /// continuous at both ends. From rest to rest that is the minimum-jerk profile of human reaching (Flash, Hogan 1985).
 ///
 /// ```
@@ -28,28 +28,28 @@ impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T> + Partia
 pub struct MinimumJerk<T> {
     from_secs: f64,
     for_secs: f64,
-    /// Of the powers of the share of the time that has passed.
+    /// Coefficients of the powers of the elapsed share of the time.
     factors: [T; 6],
     goal: T,
-    /// Whether its time runs fast first and slowly then.
+    /// Whether its time is warped: fast first, then slow.
     early: bool,
 }
 
 impl<T: Value> MinimumJerk<T> {
-    /// It stays.
+    /// A constant value.
     pub fn rest(value: T) -> MinimumJerk<T> {
         let mut factors = [T::default(); 6];
         factors[0] = value;
         MinimumJerk { from_secs: 0.0, for_secs: 0.0, factors, goal: value, early: false }
     }
 
-    /// It starts with a velocity \[1/s\] and comes to `goal` after `for_secs`.
+    /// Starts with a velocity \[1/s\] and reaches `goal` after `for_secs`.
     pub fn moving(now: f64, value: T, velocity: T, goal: T, for_secs: f64) -> MinimumJerk<T> {
         MinimumJerk::between(now, for_secs, value, velocity, T::default(), goal)
     }
 
-    /// Goes to `goal` in `for_secs` \[s\], beginning `after_secs` from `now`; what is moving already begins at once and arrives at
-    /// the same time.
+    /// Goes to `goal` in `for_secs` \[s\], beginning `after_secs` from `now`; a value that moves already begins at once
+    /// and arrives at the same time.
     pub fn go(&mut self, now: f64, goal: T, after_secs: f64, for_secs: f64) {
         let (velocity, acceleration) = (self.velocity(now), self.acceleration(now));
         let is_moving = velocity != T::default() || acceleration != T::default();
@@ -57,15 +57,15 @@ impl<T: Value> MinimumJerk<T> {
         *self = MinimumJerk::between(from, lasts, self.at(now), velocity, acceleration, goal);
     }
 
-    /// As [`MinimumJerk::go`], of something at rest faster in the first half and slower for longer at the end, as people's hands are: the
-    /// same polynomial in a time that runs fast first, u becoming 1 − (1 − u)^1.5. It is fastest after a third of the time, at 2.26
-    /// of its mean speed.
+    /// As [`MinimumJerk::go`], from rest, but faster in the first half and slower for longer at the end, as people's
+    /// hands are: the same polynomial in a time that runs fast first, u becoming 1 − (1 − u)^1.5. It is fastest after a
+    /// third of the time, at 2.26 of its mean speed.
     pub fn go_early(&mut self, now: f64, goal: T, after_secs: f64, for_secs: f64) {
         self.go(now, goal, after_secs, for_secs);
         self.early = self.factors[1] == T::default() && self.factors[2] == T::default();
     }
 
-    /// Moves value and goal alike by a step: what it is measured from has changed.
+    /// Shifts value and goal by a step: the origin from which they are measured has changed.
     pub fn shift(&mut self, by: T) {
         self.factors[0] = self.factors[0] + by;
         self.goal = self.goal + by;
@@ -93,17 +93,17 @@ impl<T: Value> MinimumJerk<T> {
         MinimumJerk { from_secs, for_secs, factors, goal, early: false }
     }
 
-    /// Where it goes.
+    /// The goal.
     pub fn goal(&self) -> T {
         self.goal
     }
 
-    /// When it sets out \[s\].
+    /// Time of its start \[s\].
     pub fn begins_secs(&self) -> f64 {
         self.from_secs
     }
 
-    /// When it is there \[s\].
+    /// Time of its arrival \[s\].
     pub fn end_secs(&self) -> f64 {
         self.from_secs + self.for_secs
     }
@@ -149,7 +149,7 @@ impl<T: Value> MinimumJerk<T> {
         f[1] + (f[2] * 2.0 + (f[3] * 3.0 + (f[4] * 4.0 + f[5] * (5.0 * u)) * u) * u) * u
     }
 
-    /// The share of the time as the polynomial takes it, with its first and second derivative.
+    /// The warped share of the time, with its first and second derivative.
     fn warped(&self, u: f64) -> [f64; 3] {
         if !self.early {
             return [u, 1.0, 0.0];
@@ -160,14 +160,14 @@ impl<T: Value> MinimumJerk<T> {
         [1.0 - left * root, 1.5 * root, if root > 1e-6 { -0.75 / root } else { 0.0 }]
     }
 
-    /// Share of its time that has passed; none when it is there.
+    /// Elapsed share of its time; `None` after arrival.
     fn share(&self, secs: f64) -> Option<f64> {
         let passed = secs - self.from_secs;
         if passed >= self.for_secs { None } else { Some(if passed <= 0.0 { 0.0 } else { passed / self.for_secs }) }
     }
 }
 
-/// No glide is shorter: it would be a jump \[s\].
+/// Minimum duration: a shorter one would be a jump \[s\].
 const SHORTEST_SECS: f64 = 1e-3;
 
 /// From 0 to 1 by minimum jerk.

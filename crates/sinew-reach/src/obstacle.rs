@@ -1,11 +1,11 @@
-//! What an arm must not touch on its way.
+//! Obstacles for the arms.
 
 use glam::{DQuat, DVec3};
 
-/// Something in the way, at rest while a way is planned.
+/// An obstacle, at rest while a path is planned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Obstacle {
-    /// A ball, or a rod with round ends.
+    /// A sphere or a capsule.
     Capsule {
         /// Centre of one end \[m\], world.
         from: DVec3,
@@ -26,7 +26,7 @@ pub enum Obstacle {
 }
 
 impl Obstacle {
-    /// How far a point is outside \[m\]; below 0 inside.
+    /// Signed distance of a point \[m\]; negative inside.
     ///
     /// ```
     /// use glam::{DQuat, DVec3};

@@ -1,4 +1,4 @@
-//! What came of a reach.
+//! The outcome of a reach.
 
 use crate::walk::Step;
 
@@ -15,16 +15,16 @@ pub enum Reason {
     TooNear,
     /// Both targets are too far from each other for one body.
     TooFarApart,
-    /// Something is in the way and no simple way around it was found.
+    /// An obstacle is in the way and no simple path around it was found.
     Blocked,
-    /// The paper's single step does not bring it in reach (under `print`).
+    /// The paper's single step does not bring the target in reach (under `print`).
     OneStep,
-    /// No target any more.
+    /// There is no target any more.
     Released,
 }
 
 impl Reason {
-    /// In words.
+    /// As text.
     pub const fn text(self) -> &'static str {
         match self {
             Reason::TooHigh => "too high for this body; the hand ends at the nearest point",
@@ -39,24 +39,24 @@ impl Reason {
     }
 }
 
-/// What was decided, and how it ends.
+/// The plan of a reach, and its result.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// Why the target is not reached; none when it is.
+    /// Why the target is not reached; `None` if it is.
     pub reason: Option<Reason>,
-    /// How far the hand ends from its target \[m\]; of the worse of two.
+    /// Final distance of the hand from its target \[m\]; of the worse of two.
     pub gap_m: f64,
-    /// When the hand arrives \[s\].
+    /// Time at which the hand arrives \[s\].
     pub arrives_secs: f64,
     /// Which hands reach: left, right.
     pub hands: [bool; 2],
-    /// The steps on the way.
+    /// The steps that are taken.
     pub steps: Vec<Step>,
     /// θ: twist of the spine \[rad\].
     pub twist_rad: f64,
     /// φ: swing of the spine \[rad\]; below 0 where it leans away from the target.
     pub swing_rad: f64,
-    /// How far the hips sink \[m\].
+    /// Squat: how far the hips are lowered \[m\].
     pub squat_m: f64,
 }
 

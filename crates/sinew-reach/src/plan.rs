@@ -1,4 +1,4 @@
-//! What to do about a goal: step or not, and where trunk and arms go then.
+//! Plans a goal: whether and where to step, and the posture of trunk and arms there.
 
 use crate::Rng;
 use crate::compose::ARMS;
@@ -27,12 +27,12 @@ pub(crate) struct Decision {
     pub walk: Option<Walk>,
     pub aim: Aim,
     pub bow: [DVec3; 2],
-    /// How far each hand has to go against the body \[m\].
+    /// Distance that each hand moves relative to the body \[m\].
     pub ways_m: [f64; 2],
     pub turns_head_rad: f64,
-    /// Upper and lower arms there, against what they hang from.
+    /// `parent_from_node` of upper and lower arms there.
     pub arms: [[DQuat; 2]; 2],
-    /// Where the hands end \[m\]: at their targets, or as near as they come.
+    /// Final positions of the hands \[m\]: at their targets, or as near as they come.
     pub ends: [DVec3; 2],
     gap_m: f64,
     reason: Option<Reason>,
@@ -54,43 +54,43 @@ impl Decision {
     }
 }
 
-/// A gap up to which a target counts as reached \[m\].
+/// Maximum gap at which a target counts as reached \[m\].
 const REACHED_M: f64 = 5e-4;
 
-/// Excess over the narrowed limits that is let pass \[rad\]: a third of what they are narrowed by.
+/// Tolerated excess over the narrowed limits \[rad\]: a third of their margin.
 const EXCESS_RAD: f64 = 0.01;
 
-/// How near to the shoulder a step may bring the target over the ground [of d_c].
+/// Minimum horizontal distance from shoulder to target after a step [of d_c].
 const ROOM: f64 = 0.65;
 
-/// How near a stance brings the shoulder to the target \[of d_c\], tried in this order.
+/// Distances of shoulder and target in candidate stances \[of d_c\], tried in this order.
 const STAND_OFF: [f64; 5] = [0.75, 0.5, 0.95, 0.3, 0.1];
 
 fn is_good(judged: &Judged) -> bool {
     judged.gap_m <= EXACT_M && judged.excess_rad <= EXCESS_RAD
 }
 
-/// What a plan misses: arriving, then joints in their limits.
+/// Cost of a plan: first the gap to the target, then the excess over joint limits.
 fn price(judged: &Judged) -> f64 {
     judged.gap_m + 2.0 * (judged.excess_rad - EXCESS_RAD).max(0.0)
 }
 
-/// A stance and what is reached from it.
+/// A stance and its posture.
 struct Trial<'a> {
     task: Task<'a>,
     found: (Aim, Judged),
     walk: Option<Walk>,
 }
 
-/// Of other stances, how many are searched.
+/// Maximum number of other stances that are searched.
 const SEARCHED: usize = 2;
 
-/// What is to be reached, seen by the planner.
+/// The goal in the planner's terms.
 struct Errand {
     targets: [Option<DVec3>; 2],
-    /// The one hand that reaches, if it is one.
+    /// The reaching hand, if there is only one.
     side: Option<usize>,
-    /// Middle of the targets, and from the middle of the shoulders to it \[m\].
+    /// Middle of the targets, and the vector from the middle of the shoulders to it \[m\].
     middle: DVec3,
     d: DVec3,
     foot_choice: f64,
@@ -98,7 +98,7 @@ struct Errand {
 }
 
 impl Reacher {
-    /// Decides anew. With `again` the target has only moved on: no step unless it is needed.
+    /// Makes a new plan. With `again` the target has only moved: no step unless it is needed.
     pub(crate) fn decide(&self, targets: [Option<DVec3>; 2], rng: &mut Rng, again: bool) -> Decision {
         let mut decision = Decision {
             targets,
@@ -163,7 +163,8 @@ impl Reacher {
         if is_good(&best.found.1) || print {
             return best;
         }
-        // Past the paper: the other foot too, or to stand elsewhere. All are looked at by the rules, the most promising searched.
+        // Beyond the paper: step with the other foot, or stand elsewhere. The rules evaluate all, the best are
+        // searched.
         let full =
             best.walk.filter(|walk| walk.kind == StepKind::Half).map(|walk| Walk { kind: StepKind::Full, ..walk });
         let mut others = STAND_OFF.map(|share| self.trial(&task, self.stand_off(share, errand)));
@@ -190,13 +191,14 @@ impl Reacher {
         best
     }
 
-    /// Whether no stance brings the hand there: it is higher than the body on its toes, the arm straight up.
+    /// Whether no stance can reach the target: it is higher than the hand of a body on its toes with the arm straight
+    /// up.
     fn is_beyond(&self, errand: &Errand) -> bool {
         let floor = self.feet.planted[0].ankle.y - self.frame.ankle_m;
         errand.targets.iter().flatten().any(|target| target.y - floor > self.frame.highest_m)
     }
 
-    /// The paper's step, as long as EQ9 says; farther targets are walked to.
+    /// The paper's step, with the length of EQ9; farther targets need a walk.
     fn step(&self, step: &StepChoice, errand: &Errand) -> Option<Walk> {
         let (values, print, d) = (&self.frame.values, self.style.print, errand.d);
         let direction = ground_direction(d)?;
@@ -209,7 +211,7 @@ impl Reacher {
         let turn = turn.unwrap_or_else(|| wrapped(libm::atan2(d.x, d.z) - here.yaw_rad));
         let left = distance - values.convenient_m * (0.7 + 0.25 * errand.near_choice);
         let is_far = !print && left > values.longest_step_m;
-        // Nobody steps so far that the hand has no room: the root goes half of a half step.
+        // The step is limited so that the hand keeps room: the root moves half of a half step.
         let root = if step.kind == StepKind::Half { 0.5 } else { 1.0 };
         let room = ((distance - ROOM * values.convenient_m) / root).max(values.shortest_step_m);
         let length = match (is_far, print) {
@@ -222,7 +224,7 @@ impl Reacher {
         Some(Walk { to, first: first_foot(turn, errand.side, errand.foot_choice), kind: step.kind })
     }
 
-    /// To stand a share of d_c from the target, facing it.
+    /// A stance at a share of d_c from the target, facing it.
     fn stand_off(&self, share: f64, errand: &Errand) -> Walk {
         let values = &self.frame.values;
         let here = Stance::of(&self.feet.last(), values);
@@ -238,7 +240,7 @@ impl Reacher {
         Walk { to, first: first_foot(turn, errand.side, errand.foot_choice), kind: StepKind::Full }
     }
 
-    /// What is reached after a walk by the rules; none when it is too far.
+    /// The posture by the rules after a walk; `None` if it is too far.
     fn trial<'a>(&'a self, task: &Task<'a>, walk: Walk) -> Option<Trial<'a>> {
         let mut feet = self.feet.clone();
         let mut steps = Vec::new();
@@ -247,14 +249,14 @@ impl Reacher {
         if !fits {
             return None;
         }
-        // Of several strides the last foot depends on their number; where the feet really end is what counts.
+        // The last foot depends on the number of strides; the final placements count.
         let stance = if steps.is_empty() { placed(&walk, &self.feet.last()) } else { feet.last() };
         let task = task.stance(&stance, self.feet.supports_of(&stance));
         Some(Trial { task, found: task.ruled(), walk: Some(walk) })
     }
 
-    /// How the way of a hand is bowed so that it does not come too near to its own shoulder: the arm would have to fold. The
-    /// paper's way is straight.
+    /// The bow of a hand's path that keeps it away from its own shoulder, where the arm would have to fold. The paper's
+    /// path is straight.
     fn bow_around(&self, shoulder: DVec3, from: DVec3, to: DVec3, forward: DVec3) -> DVec3 {
         let way = to - from;
         let share = ((shoulder - from).dot(way) / way.length_squared().max(1e-9)).clamp(0.2, 0.8);
@@ -291,7 +293,7 @@ impl Reacher {
     }
 }
 
-/// How far a hand keeps from its shoulder on its way \[1 of the arm's length\].
+/// Minimum distance of a hand from its shoulder on its path \[1 of the arm's length\].
 const ROUND: f64 = 0.72;
 
 /// The stance after a walk.
@@ -311,7 +313,7 @@ fn priced(trial: &Option<Trial>) -> f64 {
     trial.as_ref().map_or(f64::INFINITY, |trial| price(&trial.found.1))
 }
 
-/// Turning, the foot on that side goes first; else as a rule that of the reaching hand.
+/// In a turn the foot on that side goes first; otherwise, as a rule, that of the reaching hand.
 fn first_foot(turn_rad: f64, side: Option<usize>, rng: f64) -> usize {
     if turn_rad.abs() > 0.5 {
         return usize::from(turn_rad < 0.0);
@@ -324,7 +326,7 @@ fn first_foot(turn_rad: f64, side: Option<usize>, rng: f64) -> usize {
     }
 }
 
-/// φ with its sign: how far the trunk swings towards the target.
+/// φ with its sign: swing of the trunk towards the target.
 fn signed_swing(aim: &Aim, d: DVec3) -> f64 {
     let towards = ground_direction(d).map_or(1.0, |flat| aim.swing.dot(DVec3::Y.cross(flat)));
     aim.swing.length() * if towards < 0.0 { -1.0 } else { 1.0 }

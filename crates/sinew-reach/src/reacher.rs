@@ -1,4 +1,4 @@
-//! Somebody who reaches: the pose of every instant, and goals that come.
+//! The reacher: takes goals, returns the pose of every instant.
 
 use crate::arm::Arm;
 use crate::compose::{ARMS, ArmNow, Composed, Now};
@@ -13,7 +13,7 @@ use crate::{Rng, Style, Values};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 
-/// Which hands are to reach what \[m\], world.
+/// Targets of the hands \[m\], world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Goal {
     /// The left hand's target.
@@ -22,8 +22,8 @@ pub struct Goal {
     pub right: Option<DVec3>,
 }
 
-/// A body that reaches for targets. Give it a [`Goal`] and take a pose for every instant; a new goal, or one that moves, is taken
-/// up from wherever the body is, without a jump in place, velocity or acceleration.
+/// A body that reaches for targets. Give it a [`Goal`] and take a pose for every instant; a new or moving goal is
+/// followed from the body's present state, without a jump in position, velocity or acceleration.
 ///
 /// ```
 /// use glam::DVec3;
@@ -53,7 +53,7 @@ pub struct Reacher {
     pub(crate) tiptoe: MinimumJerk<f64>,
     pub(crate) heels: MinimumJerk<f64>,
     pub(crate) look: MinimumJerk<f64>,
-    /// What is left of where it looked before.
+    /// Decaying rest of the previous gaze.
     pub(crate) gaze: MinimumJerk<DVec3>,
     pub(crate) arms: [Arm; 2],
     pub(crate) hips: [MinimumJerk<DVec3>; 2],
@@ -65,16 +65,16 @@ pub struct Reacher {
     pub(crate) planned: [Option<DVec3>; 2],
     pub(crate) replanned_secs: f64,
     pub(crate) obstacles: Vec<crate::Obstacle>,
-    /// Where the targets were followed to last, and when [s].
+    /// Last positions of followed targets, and their time [s].
     pub(crate) followed: Option<([Option<DVec3>; 2], f64)>,
     pub(crate) velocity: [DVec3; 2],
 }
 
 impl Reacher {
-    /// Somebody in a pose, with the floor at height 0 below the lower sole of that pose.
+    /// A reacher in an initial pose; the floor is at height 0 below the lower sole of that pose.
     ///
     /// # Errors
-    /// When a dial of the style is out of its range.
+    /// A parameter of the style is out of range.
     pub fn new(body: &Body, style: &Style, start: &Start) -> Result<Reacher, crate::StyleError> {
         style.check()?;
         let frame = Frame::new(body, style);
@@ -177,15 +177,15 @@ impl Reacher {
         &self.frame.values
     }
 
-    /// How it reaches.
+    /// The style.
     pub fn style(&self) -> &Style {
         &self.style
     }
 
-    /// How it is to reach from the next goal on. The random choices go on as they were.
+    /// Sets the style; it takes effect at the next goal. The random sequence continues.
     ///
     /// # Errors
-    /// When a dial is out of its range; all stays as it was.
+    /// A parameter is out of range; nothing changes then.
     pub fn set_style(&mut self, style: &Style) -> Result<(), crate::StyleError> {
         style.check()?;
         self.frame.values = Values::of(&self.frame.body, style);
@@ -194,28 +194,28 @@ impl Reacher {
         Ok(())
     }
 
-    /// What was decided, and how it is to end.
+    /// The present plan and its expected result.
     pub fn outcome(&self) -> &Outcome {
         &self.outcome
     }
 
-    /// When all that is planned is done \[s\].
+    /// Time at which the plan is complete \[s\].
     pub fn done_secs(&self) -> f64 {
         self.outcome.arrives_secs.max(self.feet.lands_secs().unwrap_or(0.0))
     }
 
-    /// Where the feet stand when all is done, and what they can carry.
+    /// Placements of the feet at the end of the plan, and their support.
     pub fn feet(&self) -> &Feet {
         &self.feet
     }
 
-    /// Goes on to a time \[s\]: strides that are over become part of where the feet stand. Times never go back.
+    /// Advances to a time \[s\]: completed strides become part of the planted feet. Times must not decrease.
     pub fn advance(&mut self, secs: f64) {
         self.now_secs = self.now_secs.max(secs);
         self.feet.settle(self.now_secs);
     }
 
-    /// Reaches for a goal from now on. The outcome is known at once, because the whole way is planned.
+    /// Starts to reach for a goal now. The outcome is known at once, because the whole motion is planned.
     pub fn reach(&mut self, goal: &Goal) -> &Outcome {
         let now = self.now_secs;
         let targets = [goal.left, goal.right].map(|target| target.filter(|target| target.is_finite()));
@@ -232,7 +232,7 @@ impl Reacher {
         let decision = self.decide(targets, &mut rng, false);
         self.rng = rng;
         for side in (0..2).filter(|side| targets[*side].is_some()) {
-            // Out of reach, the hand goes straight to the nearest point.
+            // If the target is out of reach, the hand moves straight to the nearest point.
             self.arms[side].target = decision.ends[side];
             self.arms[side].end = decision.arms[side];
         }
@@ -249,8 +249,8 @@ impl Reacher {
         &self.outcome
     }
 
-    /// Arms that are to reach and are on their way or at a target already set out anew from where they are: their way is then
-    /// planned and looked at like any other.
+    /// Arms that already reach or hold a target start anew from their present state: their path is then planned and
+    /// checked like any other.
     fn set_out(&mut self, targets: [Option<DVec3>; 2], now: f64) {
         let sets_out = [0, 1].map(|side| targets[side].is_some() && self.arms[side].share.at(now) > 0.0);
         if sets_out == [false; 2] {
@@ -271,7 +271,7 @@ impl Reacher {
         }
     }
 
-    /// Lets go: arms back to the sides, trunk upright, feet where they are.
+    /// Releases all targets: arms back to the sides, trunk upright, feet where they are.
     pub fn release(&mut self) {
         let now = self.now_secs;
         self.goal = [None; 2];
@@ -289,7 +289,7 @@ impl Reacher {
         self.outcome = Outcome { arrives_secs: now + lasts, reason: Some(Reason::Released), ..Outcome::default() };
     }
 
-    /// The task from where the feet will stand, trunk straight, nothing left of the start.
+    /// The task from the final placements of the feet, trunk straight, without the rest of the initial pose.
     pub(crate) fn task(&self, targets: [Option<DVec3>; 2]) -> Task<'_> {
         let mut now = self.now(self.now_secs);
         (now.twist, now.swing, now.squat, now.lean, now.tiptoe) = (0.0, DVec3::ZERO, 0.0, DVec3::ZERO, 0.0);
@@ -310,8 +310,8 @@ impl Reacher {
     }
 }
 
-/// How far an arm swings with a usual step \[rad\].
+/// Amplitude of the arm swing of a usual step \[rad\].
 const ARM_SWING_RAD: f64 = 0.3;
 
-/// Time over which the motion of an arm that sets out anew is measured \[s\]. What the measure misses goes with its square.
+/// Time step for measuring the velocity of an arm that starts anew \[s\]. The error is of second order in it.
 const MOMENT_SECS: f64 = 1e-3;

@@ -1,11 +1,11 @@
-//! Random choices that come again with the same seed.
+//! Random numbers, reproducible by seed.
 
 /// A generator of random numbers: SplitMix64 (Steele, Lea, Flood 2014).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rng(u64);
 
 impl Rng {
-    /// Begins with a seed.
+    /// A generator with a seed.
     pub fn new(seed: u64) -> Rng {
         Rng(seed ^ 0x5EED_0F5E_ED00_0001)
     }
@@ -18,12 +18,12 @@ impl Rng {
         z ^ (z >> 31)
     }
 
-    /// Even between 0 (in) and 1 (out).
+    /// Uniform in [0, 1).
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Even between two numbers.
+    /// Uniform between two numbers.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }

@@ -1,5 +1,5 @@
-//! The way of a hand looked at before it is gone: joints within their limits, arms clear of what is in the way. Where they are
-//! not, the way is bowed and the elbow swung aside; where that does not do, the hand stops before it touches.
+//! Checks a hand's path before the motion: joints within their limits, arms clear of obstacles. If they are not, the
+//! path is bowed and the elbow swivelled; if that is not enough, the hand stops before it touches.
 
 use crate::arm_place::Moment;
 use crate::compose::{ARMS, Composed};
@@ -9,33 +9,35 @@ use crate::reacher::Reacher;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, log};
 
-/// Moments looked at on the way.
+/// Number of samples on the path.
 const LOOKS: usize = 48;
 
-/// How far an arm is to stay clear \[m\], and how near to its target what is there does not count: it is what is reached for.
+/// Minimum clearance of an arm \[m\], and the radius around its target in which obstacles are ignored: they are the
+/// object that is reached for.
 const CLEAR_M: f64 = 0.012;
 const AT_TARGET_M: f64 = 0.11;
 
-/// How far limits may be exceeded on the way, against the narrowed ones that plans keep \[rad\].
+/// Maximum excess over the narrowed limits of plans along the path \[rad\].
 const EXCESS_RAD: f64 = 0.042;
 
-/// How fast an upper arm may turn \[rad/s\]: beyond, the hand passes its own shoulder so near that the arm is thrown around.
+/// Maximum angular speed of an upper arm \[rad/s\]: above it the hand passes so near to its own shoulder that the arm
+/// whips around.
 const FASTEST_RAD_S: f64 = 11.0;
 
-/// Ways of bowing tried, in turn: up, out, in, forward, back, down, by shares of the arm.
+/// Bows that are tried in order: up, out, in, forward, back, down, by shares of the arm.
 const BOWS: [f64; 3] = [0.2, 0.4, 0.6];
 const SWIVELS: [f64; 6] = [0.4, -0.4, 0.8, -0.8, 1.3, -1.3];
 
-/// What is wrong with a way.
+/// Violations along a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Fault {
-    /// How deep the arm is in what it must not touch, at worst \[m\].
+    /// Maximum penetration of the arm into obstacles and their clearance \[m\].
     deep_m: f64,
-    /// How far joints are beyond their limits, at worst \[rad\].
+    /// Maximum excess over joint limits \[rad\].
     excess_rad: f64,
-    /// How fast the upper arm turns against its shoulder, at worst \[rad/s\].
+    /// Maximum angular speed of the upper arm relative to its shoulder \[rad/s\].
     fastest_rad_s: f64,
-    /// When the arm first touches \[s\].
+    /// Time of the first touch \[s\].
     touches_secs: Option<f64>,
 }
 
@@ -52,12 +54,12 @@ impl Fault {
 }
 
 impl Reacher {
-    /// What is in the way of arms from now on: looked at when the next goal is given.
+    /// Sets the obstacles of the arms. Takes effect at the next goal.
     pub fn set_obstacles(&mut self, obstacles: &[crate::Obstacle]) {
         self.obstacles = obstacles.iter().copied().filter(crate::Obstacle::is_finite).take(MAX_OBSTACLES).collect();
     }
 
-    /// Looks at the planned way and mends it where simple means do.
+    /// Checks the planned path and repairs it if a bow or a swivel suffices.
     pub(crate) fn mend_way(&mut self, now: f64) {
         for side in 0..2 {
             if self.goal[side].is_some() {
@@ -95,7 +97,7 @@ impl Reacher {
         }
     }
 
-    /// Ways to try instead, the most likely first.
+    /// Alternative paths, the most promising first.
     fn other_ways(&self, side: usize, usual: &Way, touches: bool, now: f64) -> impl Iterator<Item = Way> + use<> {
         let usual = *usual;
         let outward = if side == 0 { 1.0 } else { -1.0 };
@@ -107,7 +109,7 @@ impl Reacher {
                 BOWS.into_iter().flat_map(move |share| ways.map(|way| usual.bow + turn * way * (share * arm_m)));
             [usual.bow, DVec3::ZERO].into_iter().chain(aside)
         };
-        // Where only the joints are at fault, they lead the way themselves.
+        // If only joint limits are violated, the path is interpolated in joint space.
         let by_joints = (!touches).then_some(Way { by_joints: true, ..usual });
         let swung = std::iter::once(0.0).chain(SWIVELS);
         by_joints.into_iter().chain(
@@ -115,7 +117,7 @@ impl Reacher {
         )
     }
 
-    /// The hand goes as far as is clear.
+    /// The hand moves as far as the path is clear.
     fn stop_before(&mut self, side: usize, secs: f64, now: f64) {
         let end = self.outcome.arrives_secs;
         let begins = self.arms[side].share.begins_secs().clamp(now, end);
@@ -125,10 +127,10 @@ impl Reacher {
         self.outcome.reason = Some(Reason::Blocked);
     }
 
-    /// The body at moments of the way.
+    /// The body at samples of the path.
     fn looks(&self, side: usize, now: f64) -> Vec<Look> {
         let end = self.outcome.arrives_secs;
-        // Before, the arm is only carried.
+        // Before that time the arm is only carried.
         let now = self.arms[side].share.begins_secs().clamp(now, end);
         let look = |index: usize| {
             let secs = now + (end - now) * index as f64 / LOOKS as f64;
@@ -158,7 +160,7 @@ impl Reacher {
                 at_start = there;
                 continue;
             }
-            // Whoever begins beyond a limit or touching something may go on from there.
+            // A motion that begins beyond a limit or in contact may continue from there.
             let deep = there.deep_m.min((there.deep_m - at_start.deep_m).max(0.0));
             if deep > 0.0 && fault.touches_secs.is_none() {
                 fault.touches_secs = Some(look.secs);
@@ -204,14 +206,15 @@ impl Reacher {
     }
 }
 
-/// How far the joints lead a way \[1\]: at the end, when the trunk is nearly there, the hand is led by its place.
+/// Weight of joint interpolation along a path \[1\]: at the end, when the trunk has nearly arrived, the hand's position
+/// is interpolated.
 fn led_by_joints(begins: f64, end: f64) -> MinimumJerk<f64> {
     let mut led = MinimumJerk::rest(1.0);
     led.go(begins, 0.0, 0.85 * (end - begins), 0.15 * (end - begins));
     led
 }
 
-/// How an arm gets there.
+/// The path of an arm.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     bow: DVec3,
@@ -219,13 +222,13 @@ struct Way {
     by_joints: bool,
 }
 
-/// The body at a moment of the way.
+/// The body at a sample of the path.
 struct Look {
     secs: f64,
-    /// How far the joints would lead, if they did.
+    /// Weight of joint interpolation, if it is used.
     led: f64,
     moment: Moment,
 }
 
-/// Obstacles that are looked at; more are passed over.
+/// Maximum number of obstacles; more are ignored.
 pub const MAX_OBSTACLES: usize = 64;

@@ -8,7 +8,7 @@ use crate::reacher::Reacher;
 use glam::DVec3;
 
 impl Reacher {
-    /// Sets every glide on its way: the scheduler's states 0 to 3.
+    /// Starts every trajectory: the scheduler's states 0 to 3.
     pub(crate) fn schedule(&mut self, decision: &Decision, composed: &Composed, now: f64) {
         let mut pace = 1.0;
         if let Some(time) = self.style.time_secs {
@@ -33,7 +33,7 @@ impl Reacher {
         let arms_secs = timing.end - timing.arm;
         let from = |at: f64| (at - now).max(0.0);
         let aim = &decision.aim;
-        // State 1: arm, head and twist. The default looks first, as people do.
+        // State 1: arm, head and twist. By default the head turns first, as people's do.
         let head = if self.style.print { timing.arm } else { now };
         self.look.go(now, 1.0, from(head), timing.head);
         self.gaze.go(now, DVec3::ZERO, 0.0, timing.head.max(0.3));
@@ -65,7 +65,7 @@ impl Reacher {
         self.outcome = decision.outcome(timing.end, &self.steps);
     }
 
-    /// Sends the body elsewhere while the hand stays on its way or on its target.
+    /// Redirects the body while the hand stays on its path or on its target.
     pub(crate) fn schedule_again(&mut self, decision: &Decision, now: f64) {
         let composed = self.composed_at(now);
         let timing = self.timing(decision, &composed, now, 1.0);
@@ -77,7 +77,7 @@ impl Reacher {
             landed = self.feet.lands_secs().unwrap_or(now);
         }
         let aim = &decision.aim;
-        // A body that must keep up with a target may not take its time.
+        // A body that follows a moving target must be fast enough.
         let lasts = (timing.twist.max(timing.swings)).clamp(0.35, 0.6).max(landed - now);
         self.twist.go(now, aim.twist, 0.0, lasts);
         self.swing.go(now, aim.swing, 0.0, lasts);
@@ -146,13 +146,13 @@ impl Reacher {
 }
 
 struct Timing {
-    /// When the feet are free for new steps \[s\].
+    /// Time from which new steps can begin \[s\].
     free: f64,
-    /// When arm and twist begin, when the swing does, when the hand arrives \[s\].
+    /// Times at which arm and twist begin, the swing begins, and the hand arrives \[s\].
     arm: f64,
     swing: f64,
     end: f64,
-    /// How long twist, swing and the head's turn take \[s\].
+    /// Durations of twist, swing and the head's rotation \[s\].
     twist: f64,
     swings: f64,
     head: f64,

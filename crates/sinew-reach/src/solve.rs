@@ -1,4 +1,5 @@
-//! The posture in which hands reach their targets from a stance: the paper's rules first, then a search where they do not do.
+//! The posture in which hands reach their targets from a stance: the paper's rules first, then a search if they are not
+//! sufficient.
 
 use crate::compose::{ARMS, Composed, Now};
 use crate::feet::{Placement, Support};
@@ -9,14 +10,14 @@ use crate::{Style, Values};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
 
-/// Where the trunk and the arms go.
+/// A posture of trunk and arms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Aim {
     pub twist: f64,
     pub swing: DVec3,
     pub squat: f64,
     pub lean: DVec3,
-    /// How far the body rises on its toes, with the lean before it \[rad\].
+    /// Heel rise of the body on its toes, including the lean before it \[rad\].
     pub tiptoe: f64,
     pub arms: [ArmAim; 2],
 }
@@ -27,20 +28,20 @@ pub(crate) struct ArmAim {
     pub girdle: DVec3,
 }
 
-/// How good an aim is.
+/// The cost of an aim.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Judged {
     pub composed: Composed,
-    /// How far the worse hand stays from its target \[m\].
+    /// Gap between the worse hand and its target \[m\].
     pub gap_m: f64,
-    /// How far joints are beyond the narrowed limits, summed \[rad\].
+    /// Sum of the joints' excess over the narrowed limits \[rad\].
     pub excess_rad: f64,
-    /// How far upper arms are beyond the range in which they are at ease \[rad\].
+    /// Excess of the upper arms over their comfortable range \[rad\].
     unease_rad: f64,
     cost: f64,
 }
 
-/// What is to be reached, from where.
+/// The targets, and the stance from which they are reached.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Task<'a> {
     pub frame: &'a Frame,
@@ -50,7 +51,7 @@ pub(crate) struct Task<'a> {
     pub targets: [Option<DVec3>; 2],
 }
 
-/// A gap that counts as none \[m\].
+/// Tolerance of the gap \[m\].
 pub(crate) const EXACT_M: f64 = 2e-4;
 
 impl Task<'_> {
@@ -159,7 +160,7 @@ impl Task<'_> {
         let enough = self.values().stretch.0;
         let mut best = (worst(&aim), 0.0);
         if best.0 > self.values().stretch.1 && d.y > self.values().start_swing_m && self.frame.has_heels {
-            // Up on the toes where the stretched arm does not do, as far as it takes.
+            // Rise on the toes if the stretched arm is not sufficient, as far as needed.
             for share in TIPTOES {
                 let tiptoe = share * MAX_TIPTOE_RAD;
                 let stretch = worst(&Aim { tiptoe, ..aim });
@@ -172,7 +173,7 @@ impl Task<'_> {
             }
         }
         if best.0 > enough {
-            // Leaning away lifts a shoulder towards what is high; nobody leans far that way.
+            // Leaning away lifts a shoulder towards a high target; people do not lean far that way.
             let back = if d.y > self.values().start_swing_m { 24.0_f64.to_radians() } else { 0.0 };
             for (sign, most) in [(1.0, self.values().most_swing_rad), (-1.0, back)] {
                 let (mut inside, mut angle) = (0.0, 0.0);
@@ -188,7 +189,7 @@ impl Task<'_> {
                     inside = angle;
                 }
                 if best.0 <= enough && best.1 == sign * angle {
-                    // As little as does.
+                    // The smallest sufficient value.
                     let mut enough_at = angle;
                     for _ in 0..SWING_HALVINGS {
                         let middle = 0.5 * (inside + enough_at);
@@ -206,7 +207,7 @@ impl Task<'_> {
         aim
     }
 
-    /// The shoulder girdle goes up with a high target and forward with a far one.
+    /// The shoulder girdle rises for a high target and moves forward for a far one.
     fn lift_girdles(&self, aim: &mut Aim, composed: &Composed) {
         for side in 0..2 {
             let Some(target) = self.targets[side] else { continue };
@@ -221,7 +222,7 @@ impl Task<'_> {
         }
     }
 
-    /// The paper's rules, and the elbow where the arm's joints are best off.
+    /// The paper's rules, with the swivel of least cost for the arm's joints.
     pub fn ruled(&self) -> (Aim, Judged) {
         let mut aim = self.by_rule();
         let mut judged = self.judge(&aim);
@@ -231,7 +232,7 @@ impl Task<'_> {
         (aim, judged)
     }
 
-    /// Searches on where the hand does not arrive, or not with ease.
+    /// Continues with a search if the hand does not arrive, or not comfortably.
     pub fn better(&self, (aim, judged): &mut (Aim, Judged)) {
         let is_strained = (0..2).any(|side| {
             self.targets[side].is_some() && judged.composed.stretch[side] > self.values().stretch.0 + 0.005
@@ -241,7 +242,7 @@ impl Task<'_> {
         }
     }
 
-    /// The swivel of each arm at which its joints are best off, all else as it is.
+    /// The swivel of each arm with the least cost, all else unchanged.
     fn swivel_arms(&self, aim: &mut Aim, judged: &mut Judged) {
         let mut other = *aim;
         for side in (0..2).filter(|side| self.targets[*side].is_some()) {
@@ -261,7 +262,7 @@ impl Task<'_> {
         }
     }
 
-    /// What a swivel costs in a posture of the rest of the body, as in [`Task::judge`].
+    /// The cost of a swivel for a given posture of the rest of the body, as in [`Task::judge`].
     fn price_of_arm(&self, composed: &Composed, side: usize, swivel: f64) -> f64 {
         let [shoulder, upper, lower, _] = ARMS[side];
         let Some(target) = self.targets[side] else { return 0.0 };
@@ -272,7 +273,7 @@ impl Task<'_> {
         30.0 * excess + 0.3 * unease + 0.01 * (swivel - USUAL_SWIVEL) * (swivel - USUAL_SWIVEL)
     }
 
-    /// Goes downhill one coordinate at a time, each by steps of its own that shrink where neither way is down.
+    /// Coordinate descent with a step size for each coordinate that shrinks if neither direction improves.
     fn search(&self, aim: &mut Aim, judged: &mut Judged) {
         let yaw = self.now.support[0].yaw_rad + aim.twist;
         let mut steps = [1.0; COORDINATES];
@@ -306,7 +307,7 @@ impl Task<'_> {
         }
     }
 
-    /// An aim changed along one coordinate, none where there is nothing to change.
+    /// An aim changed along one coordinate; `None` if that coordinate cannot change.
     fn changed(&self, aim: &Aim, coordinate: usize, by: f64, yaw: f64) -> Option<Aim> {
         let (sin, cos) = libm::sincos(yaw);
         let (across, along) = (DVec3::new(cos, 0.0, -sin), DVec3::new(sin, 0.0, cos));
@@ -328,21 +329,21 @@ impl Task<'_> {
     }
 }
 
-/// How far a body rises on its toes, the lean before it with it \[rad\], and the shares that are tried.
+/// Heel rise of a body on its toes, including the lean before it \[rad\], and the shares that are tried.
 const MAX_TIPTOE_RAD: f64 = LEAN_FIRST_RAD + MAX_RAD;
 const TIPTOES: [f64; 4] = [0.35, 0.5, 0.75, 1.0];
 
-/// Steps in which the swing grows, and how often the last is halved: to about a degree.
+/// Number of steps in which the swing grows, and of bisections of the last one: to about a degree.
 const SWING_STEP_RAD: f64 = 9.0 * std::f64::consts::PI / 180.0;
 const SWING_HALVINGS: usize = 3;
 
-/// How far out the elbow is by habit \[rad\].
+/// Preferred swivel of the elbow outwards \[rad\].
 pub(crate) const USUAL_SWIVEL: f64 = 0.0;
 
 const COORDINATES: usize = 9;
 
-/// The search ends when all steps are smaller than this share of the first ones, after so many looks, or after fewer once the hand
-/// arrives within all limits.
+/// The search ends when all steps are smaller than this share of the first ones, after this maximum number of
+/// evaluations, or after fewer once the hand arrives within all limits.
 const SMALLEST: f64 = 0.012;
 const MAX_LOOKS: usize = 150;
 const ENOUGH_LOOKS: usize = 30;

@@ -15,7 +15,7 @@ pub fn swing_shares(swing: DVec3, hips_share: f64) -> [DVec3; 3] {
     [swing * hips_share, rest, rest]
 }
 
-/// The reaching angle: where a target lies from the shoulder, from the forward direction towards the arm's own side \[rad\].
+/// The reaching angle: direction of a target from the shoulder, from forward towards the arm's own side \[rad\].
 pub fn reaching_angle(shoulder_to_target: DVec3, facing_rad: f64, is_right: bool) -> Option<f64> {
     let flat = ground_direction(shoulder_to_target)?;
     let turn = wrapped(libm::atan2(flat.x, flat.z) - facing_rad);
@@ -28,9 +28,9 @@ pub(crate) fn wrapped(angle: f64) -> f64 {
     angle - turn * (angle / turn).round()
 }
 
-/// The total twist θ \[rad, about +Y\] with which the target comes to lie within the comfortable reaching angle: the smallest that
-/// does, in steps of one degree; the largest allowed where none does. `shoulder_at(twist)` tells where the
-/// shoulder is then, for it goes along.
+/// The total twist θ \[rad, about +Y\] with which the target lies within the comfortable reaching angle: the smallest
+/// one, in steps of one degree; the maximum if none suffices. `shoulder_at(twist)` returns the shoulder's position,
+/// which moves with the twist.
 pub fn search_twist(
     target: DVec3,
     facing_rad: f64,
@@ -57,8 +57,8 @@ pub fn search_twist(
     sign * values.most_twist_rad
 }
 
-/// EQ7: the swing axis **s** = **d** × **y**, a unit vector, turned round so that a positive angle leans the trunk towards the
-/// target (a turn about d × y itself leans away). For a target straight above or below: about the axis that leans
+/// EQ7: the swing axis **s** = **d** × **y**, a unit vector, reversed so that a positive angle leans the trunk towards
+/// the target (a turn about d × y itself leans away). For a target straight above or below: about the axis that leans
 /// forward.
 pub fn swing_axis(d: DVec3, facing_rad: f64) -> DVec3 {
     let printed = d.cross(DVec3::Y);
@@ -68,20 +68,20 @@ pub fn swing_axis(d: DVec3, facing_rad: f64) -> DVec3 {
     }
 }
 
-/// EQ8: the root's shift **r** = −k φ **d**_p \[m\] for a swing given as its rotation vector: hips go back as the trunk bends
-/// towards the target, and forward as it leans away to reach up.
+/// EQ8: the root's shift **r** = −k φ **d**_p \[m\] for a swing given as its rotation vector: hips move back as the
+/// trunk bends towards the target, and forward as it leans away to reach up.
 pub fn root_shift(swing: DVec3, values: &Values) -> DVec3 {
     // φ d_p is the swing's rotation vector turned by a quarter.
     swing.cross(DVec3::Y) * -values.shift_per_swing()
 }
 
-/// Stoop range: how far below the shoulder a target may be before the legs bend, arm length / F \[m\].
+/// Stoop range: maximum distance of a target below the shoulder before the legs bend, arm length / F \[m\].
 pub fn stoop_range_m(flexibility: f64, values: &Values) -> f64 {
     values.arm_m / flexibility
 }
 
-/// How far the hips sink for a target so far below the shoulder \[m\]: as much as the stoop range leaves, or half as much again
-/// (see [`Values::squat_per_excess`]).
+/// Squat depth for a target at a distance below the shoulder \[m\]: the excess over the stoop range, or half as much
+/// again (see [`Values::squat_per_excess`]).
 pub fn squat_for(below_m: f64, flexibility: f64, values: &Values) -> f64 {
     let excess = below_m - stoop_range_m(flexibility, values);
     (values.squat_per_excess * excess).clamp(0.0, values.most_squat_m)

@@ -1,4 +1,4 @@
-//! The pose out of which a reach begins, and how what it has beyond a standing body's passes.
+//! The initial pose of a reach, and the decay of its difference from a standing body.
 
 use crate::Values;
 use crate::arm::Carried;
@@ -11,16 +11,16 @@ use crate::walk::Stance;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, LEGS, Node, Pose, log};
 
-/// The pose that somebody is in when a reach begins, and how it moves.
+/// The initial pose of a reach, and its velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// The pose.
     pub pose: Pose,
-    /// The pose a moment before, and how long before \[s\]; none for a body at rest.
+    /// The pose a moment before, and the time between \[s\]; `None` for a body at rest.
     pub before: Option<(Pose, f64)>,
 }
 
-/// A body standing at a place of the floor, facing an angle \[rad about +Y from +Z to +X\], its soles on it.
+/// A body standing at a point of the floor with a heading \[rad about +Y from +Z to +X\], its soles on the floor.
 pub fn standing(body: &Body, place: DVec3, facing_rad: f64) -> Pose {
     let turn = DQuat::from_rotation_y(facing_rad);
     let mut pose = Pose { hips_position: DVec3::ZERO, world: [turn; Node::COUNT] };
@@ -31,7 +31,7 @@ pub fn standing(body: &Body, place: DVec3, facing_rad: f64) -> Pose {
     pose
 }
 
-/// Where both feet come to stand, on the floor below the lower sole.
+/// The placements of both feet, on the floor below the lower sole.
 pub(crate) fn placed_feet(start: &Start, body: &Body, ankle_m: f64) -> [Placement; 2] {
     let pose = &start.pose;
     let at = pose.positions(body);
@@ -46,7 +46,7 @@ pub(crate) fn placed_feet(start: &Start, body: &Body, ankle_m: f64) -> [Placemen
     placed
 }
 
-/// How far ahead of where it is a foot lands that is on its way when the reach begins \[m\].
+/// Distance from its present position to the landing point of a foot that swings when the reach begins \[m\].
 fn lands_ahead(start: &Start, body: &Body, foot: Node) -> DVec3 {
     let Some((before, ago)) = &start.before else { return DVec3::ZERO };
     let at = |pose: &Pose| pose.positions(body)[foot.index()];
@@ -56,7 +56,7 @@ fn lands_ahead(start: &Start, body: &Body, foot: Node) -> DVec3 {
     (flat * (LANDS_SECS * moves)).clamp_length_max(0.45 * body.stature_m() / 1.7)
 }
 
-/// Whoever is caught in a long stride sets the foot that stands behind beside the other, as soon as that has landed.
+/// If the reach begins in mid-stride, the trailing foot closes the step as soon as the other has landed.
 pub(crate) fn close_stride(feet: &mut Feet, start: &Start, body: &Body, values: &Values) {
     let Some((before, ago)) = &start.before else { return };
     let velocity = (start.pose.hips_position - before.hips_position) / ago.max(1e-3);
@@ -78,21 +78,21 @@ pub(crate) fn close_stride(feet: &mut Feet, start: &Start, body: &Body, values: 
     feet.keep_closing();
 }
 
-/// A stride this long \[1 of the usual step\] is closed; a foot slower than this stands \[m/s\].
+/// Minimum length of a stride that is closed \[1 of the usual step\]; maximum speed of a standing foot \[m/s\].
 const LONG_STRIDE: f64 = 0.6;
 const STANDS_M_S: f64 = 0.6;
 
-/// A foot in the air goes on for so long at its speed, in all, until it stands \[s\].
+/// Time for which a swinging foot keeps its speed, in total, until it stands \[s\].
 const LANDS_SECS: f64 = 0.2;
 
-/// How long what is left of the start's pose takes to pass \[s\]: of a body at rest, and of one that moves.
+/// Decay time of the initial pose's difference \[s\]: for a body at rest, and for a moving one.
 const SETTLES_SECS: (f64, f64) = (0.5, 0.4);
 
 /// Share of a moving body's carried arms that stays when it stands.
 const CARRIED_ON: f64 = 0.35;
 
 impl Reacher {
-    /// What the start's pose has and a standing body has not, to pass in a while.
+    /// The initial pose's difference from a standing body, which decays.
     pub(crate) fn begin(&mut self, start: &Start) {
         let body = self.frame.body.clone();
         let plain = self.composed_at(0.0).pose;
@@ -103,7 +103,7 @@ impl Reacher {
             MinimumJerk::moving(0.0, now, velocity.clamp_length_max(20.0), DVec3::ZERO, lasts)
         };
         self.heels.go(0.0, 1.0, 0.0, lasts);
-        // A body that moves goes on for a little: it comes to stand where its feet land.
+        // A moving body continues a little: it stands where its feet land.
         let turn = |pose: &Pose| log(pose.world[0] * plain.world[0].conjugate());
         self.hips = [
             glide(
@@ -137,7 +137,7 @@ impl Reacher {
             });
             self.feet.rests[side] =
                 (glide(shift, then.map(|then| (then.0, then.2))), glide(turned, then.map(|then| (then.1, then.2))));
-            // Where the knee points, against where the toes do.
+            // Direction of the knee relative to the toes.
             let hinge = own.world[lower.index()] * DVec3::X;
             let forward = hinge.cross(DVec3::Y);
             let yaw = crate::spine::wrapped(libm::atan2(forward.x, forward.z) - self.feet.planted[side].yaw_rad);

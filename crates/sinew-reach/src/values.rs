@@ -1,28 +1,28 @@
-//! Every value that the paper leaves open, in one place, scaled by the body.
+//! All parameters that the paper leaves open, in one place, scaled by the body.
 
 use sinew_body::humanoid::{Body, Node};
 
-/// How somebody reaches: the dials of the method. The defaults are a calm adult.
+/// The style of a reach: the user's parameters. The defaults are a calm adult.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
-    /// Flexibility F of the legs, 0.25 to 4 \[1\]. The stoop range is arm length / F: a target lower than that below the shoulder
-    /// makes the body squat, what is left is stooped. Default 1.
+    /// Flexibility F of the legs, 0.25 to 4 \[1\]. The stoop range is arm length / F: for a target lower than that
+    /// below the shoulder the body squats, and stoops for the rest. Default 1.
     pub flexibility: f64,
-    /// Peak speed of the hand \[m/s\], 0.05 to 10; under `print` the paper's start speed v_s. None: 1.15 m/s for a way of
-    /// 0.6 m and more for a longer one (see [`Values::hand_secs`]); 0.2 m/s under `print`.
+    /// Peak speed of the hand \[m/s\], 0.05 to 10; under `print` the paper's start speed v_s. `None`: 1.15 m/s for a
+    /// path of 0.6 m and more for a longer one (see [`Values::hand_secs`]); 0.2 m/s under `print`.
     pub speed_m_s: Option<f64>,
-    /// Time from start to arrival \[s\], in place of a speed; all of the body keeps it.
+    /// Time from start to arrival \[s\], 0.2 to 600, in place of a speed; applies to the whole body. Default `None`.
     pub time_secs: Option<f64>,
-    /// r_st, 0 to 1: which share of the stepping has passed when arm and twist begin. Default 0.55.
+    /// r_st, 0 to 1: share of the stepping that is done when arm and twist begin. Default 0.55.
     pub overlap_step: f64,
-    /// r_tw, 0 to 1: which share of the twist has passed when the spine swings. Default 0.2.
+    /// r_tw, 0 to 1: share of the twist that is done when the spine swings. Default 0.2.
     pub overlap_twist: f64,
-    /// Speed at which the head turns \[rad/s\]. Default 2.5.
+    /// Speed at which the head turns \[rad/s\], 0.1 to 20. Default 2.5.
     pub head_speed_rad_s: f64,
-    /// The paper to the letter where it can be built: EQ1 to 4 for the hand, one step at most, piecewise linear arcs, thirds of
-    /// a swing to each of the three joints, the head with the arm.
+    /// Literal mode, the paper as printed where it can be built: EQ1 to 4 for the hand, one step at most, piecewise
+    /// linear arcs, thirds of a swing to each of the three joints, the head with the arm.
     pub print: bool,
-    /// Where every random choice comes from.
+    /// Seed of all random choices.
     pub seed: u64,
 }
 
@@ -41,25 +41,25 @@ impl Default for Style {
     }
 }
 
-/// A dial that is out of its range.
+/// A parameter out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{name} of {value} is out of range; it is {from} to {to}")]
 pub struct StyleError {
-    /// Which dial.
+    /// The parameter.
     pub name: &'static str,
-    /// What was asked for.
+    /// The requested value.
     pub value: f64,
-    /// The least that can be had.
+    /// The minimum.
     pub from: f64,
-    /// The most that can be had.
+    /// The maximum.
     pub to: f64,
 }
 
 impl Style {
-    /// Checks every dial.
+    /// Checks every parameter.
     ///
     /// # Errors
-    /// The first that is out of its range.
+    /// The first parameter that is out of range.
     pub fn check(&self) -> Result<(), StyleError> {
         let within = |name, value: f64, from: f64, to: f64| {
             if (from..=to).contains(&value) { Ok(()) } else { Err(StyleError { name, value, from, to }) }
@@ -73,8 +73,8 @@ impl Style {
     }
 }
 
-/// The open values for one body. Lengths scale with it; angles and shares do not. Where the paper states a value it stands here
-/// for its own figure's adult.
+/// The open values for one body. Lengths scale with it; angles and shares do not. Values that the paper states are
+/// those of its own adult figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Values {
     /// From the shoulder joint to the centre of the hand, stretched \[m\].
@@ -91,40 +91,40 @@ pub struct Values {
     pub usual_step_m: f64,
     /// l_max of EQ9, 0.72 leg lengths \[m\].
     pub longest_step_m: f64,
-    /// P_max: how likely a half step is at d_c \[1\].
+    /// P_max: probability of a half step at d_c \[1\].
     pub half_step_most: f64,
-    /// P_min: how likely a half step is at d_max \[1\].
+    /// P_min: probability of a half step at d_max \[1\].
     pub half_step_least: f64,
     /// Mean and standard deviation of p in EQ9 \[1\]; p is kept inside 0.02 to 0.98, for EQ9 has a pole outside (0, 1).
     pub step_bias: (f64, f64),
     /// The comfortable reaching angle, from the forward direction towards the arm's own side \[rad\].
     pub comfortable_rad: (f64, f64),
-    /// Largest twist θ of the whole spine \[rad\].
+    /// Maximum twist θ of the whole spine \[rad\].
     pub most_twist_rad: f64,
     /// φ_max of EQ8, 120° \[rad\].
     pub most_swing_rad: f64,
     /// |r_max| of EQ8, 0.1 m for an adult, 0.118 leg lengths \[m\].
     pub most_root_shift_m: f64,
-    /// The start swing distance: how far over or under the shoulder a target may be before the spine swings, 0.55 arm
-    /// lengths \[m\].
+    /// The start swing distance: maximum height of a target above or below the shoulder before the spine swings, 0.55
+    /// arm lengths \[m\].
     pub start_swing_m: f64,
-    /// How far the hips may sink, 0.7 leg lengths \[m\].
+    /// Maximum squat depth, 0.7 leg lengths \[m\].
     pub most_squat_m: f64,
     /// Share of a swing that the hips take; the chest takes the rest (lumbar and thoracic spine are one joint here). The paper's
     /// thirds under `print`.
     pub hips_share_of_swing: f64,
-    /// How far the hips sink for what a target is lower than the stoop range \[1\]. The paper says only that they sink; people go
-    /// deeper than they must and keep the trunk upright.
+    /// Squat depth per distance of a target below the stoop range \[1\]. The paper says only that the hips sink; people
+    /// squat deeper than necessary and keep the trunk upright.
     pub squat_per_excess: f64,
-    /// How far arms stretch for comfort, and at most \[1 of the arm's length\].
+    /// Comfortable and maximum extension of the arms \[1 of the arm's length\].
     pub stretch: (f64, f64),
-    /// How high a foot is lifted, 0.11 leg lengths \[m\].
+    /// Height to which a foot is lifted, 0.11 leg lengths \[m\].
     pub foot_lift_m: f64,
     /// Time of one step \[s\].
     pub step_secs: f64,
 }
 
-/// Peak of a hand's speed against its mean \[1\], see [`MinimumJerk::go_early`](crate::MinimumJerk::go_early).
+/// Ratio of a hand's peak to its mean speed \[1\], see [`MinimumJerk::go_early`](crate::MinimumJerk::go_early).
 const EARLY_PEAK: f64 = 2.263;
 
 impl Values {
@@ -161,8 +161,8 @@ impl Values {
         }
     }
 
-    /// How long a hand takes for a way \[s\] when no speed is asked for: 0.45 s and 0.85 s a metre. Measured people slow down
-    /// their hands less than in proportion to the way.
+    /// Time of a hand for a path \[s\] if no speed is given: 0.45 s and 0.85 s a metre. In measurements the mean speed
+    /// of hands grows with the length of the path.
     pub fn hand_secs(&self, way_m: f64, style: &Style) -> f64 {
         match style.speed_m_s {
             Some(peak) => (EARLY_PEAK * way_m / peak).max(0.15),

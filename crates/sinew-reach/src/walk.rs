@@ -1,4 +1,4 @@
-//! From one stance to another: which feet go where.
+//! Plans the strides from one stance to another.
 
 use crate::Values;
 use crate::feet::{Feet, Placement, Stride};
@@ -6,12 +6,12 @@ use crate::legs::StepKind;
 use crate::spine::wrapped;
 use glam::{DQuat, DVec3};
 
-/// Where a body is to stand.
+/// A stance: position and heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stance {
     /// Middle of the ankles \[m\].
     pub middle: DVec3,
-    /// Where it faces \[rad\].
+    /// Heading \[rad\].
     pub yaw_rad: f64,
     /// Distance of the ankles \[m\].
     pub breadth_m: f64,
@@ -24,13 +24,13 @@ pub struct Step {
     pub side: usize,
     /// Half or full.
     pub kind: StepKind,
-    /// How far that foot goes \[m\].
+    /// Length of its stride \[m\].
     pub length_m: f64,
-    /// When it leaves the floor \[s\].
+    /// Lift-off time \[s\].
     pub start_secs: f64,
 }
 
-/// Largest turn of a stance between two strides \[rad\].
+/// Maximum turn of a stance between two strides \[rad\].
 const MAX_TURN_RAD: f64 = 0.6;
 
 impl Stance {
@@ -43,7 +43,7 @@ impl Stance {
         Stance { middle, yaw_rad, breadth_m: breadth.clamp(0.8 * usual, 1.4 * usual) }
     }
 
-    /// Where a foot stands in it.
+    /// The placement of a foot in it.
     pub fn foot(&self, side: usize) -> Placement {
         let x = if side == 0 { 0.5 } else { -0.5 } * self.breadth_m;
         Placement {
@@ -61,8 +61,8 @@ impl Stance {
     }
 }
 
-/// The strides to a stance, beginning with a foot, and the steps that they make. With a half step the last foot stays behind.
-/// Adds nothing when both feet stand there already. False when it is too far to be planned.
+/// Appends the strides to a stance, beginning with a foot, and their steps. With a half step the last foot stays
+/// behind. Appends nothing if both feet stand there already. False if it is too far.
 #[allow(clippy::too_many_arguments, reason = "a walk is all of these")]
 pub(crate) fn walk(
     feet: &mut Feet,
