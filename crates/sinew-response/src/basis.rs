@@ -1,4 +1,4 @@
-//! The coordinates of actuation of a motion.
+//! The actuation coordinates of a motion: principal components of its joint torques.
 
 use crate::settings::{Coordinates, Settings};
 use crate::torque::torques;
@@ -6,19 +6,19 @@ use crate::upper_body::{Coordinates24, Matrix24, UpperBody};
 use nalgebra::{SMatrix, SymmetricEigen};
 use sinew_body::humanoid::{Body, Pose, UPPER_DOFS};
 
-/// Why no basis can be made.
+/// Why a basis cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BasisError {
     /// Too little motion.
     #[error("a basis needs at least 3 frames of motion, this has {0}; give a longer clip or a wider --cycle")]
     TooShort(usize),
-    /// The motion holds a value that is no number.
+    /// The motion holds a value that is NaN or infinite.
     #[error("the motion is not finite; check the clip with `sinew inspect`")]
     NotFinite,
 }
 
-/// The actuation space of one motion: orthonormal directions of joint torque, from the most used to the least, and what
-/// each coordinate weighs.
+/// The actuation space of one motion: orthonormal directions of joint torque, from the most used to the least, and the
+/// inertia behind each coordinate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basis {
     /// Mean square torque along each direction \[(N m)²\], descending: the spectrum of actuation.
@@ -34,7 +34,7 @@ impl Basis {
     /// principal components usually are, a joint under constant load would look free.
     ///
     /// # Errors
-    /// When the motion has fewer than three frames or is not finite.
+    /// The motion has fewer than three frames or is not finite.
     pub fn of_motion(body: &Body, motion: &[Pose], settings: &Settings) -> Result<Basis, BasisError> {
         if motion.len() < 3 {
             return Err(BasisError::TooShort(motion.len()));
@@ -86,7 +86,7 @@ impl Basis {
         &self.inertia
     }
 
-    /// The k directions that obey dynamics: Ê of the paper (or, for the counter-experiment, the other end).
+    /// The k directions under dynamics: Ê of the paper (or, for the counter-experiment, the other end).
     pub(crate) fn dynamic(&self, settings: &Settings) -> &[Coordinates24] {
         let k = settings.k.min(UPPER_DOFS);
         match settings.coordinates {

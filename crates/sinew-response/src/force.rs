@@ -1,9 +1,10 @@
-//! What pushes a body.
+//! External forces on a body.
 
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
 
-/// Forces are taken as no larger than this \[N\], the weight of ten tonnes: any finite force gives a finite pose.
+/// Maximum force \[N\], the weight of ten tonnes; larger ones are clamped, so that any finite force gives a finite
+/// pose.
 const LARGEST_FORCE_N: f64 = 1e5;
 
 /// A force at a point of a body.
@@ -11,7 +12,7 @@ const LARGEST_FORCE_N: f64 = 1e5;
 pub struct PointForce {
     /// The body it acts on.
     pub node: Node,
-    /// Where on it, in the node's anatomical frame \[m\]; `None` for its centre of mass.
+    /// Point of application in the node's anatomical frame \[m\]; `None` for its centre of mass.
     pub point: Option<DVec3>,
     /// The force in the world \[N\].
     pub force_n: DVec3,
@@ -29,12 +30,12 @@ impl PointForce {
         PointForce { node, point: Some(pose.world[node.index()].conjugate() * from_joint), force_n }
     }
 
-    /// The force made safe: nothing that is not finite, nothing beyond reason.
+    /// The sanitized force: NaN and infinite values removed, magnitudes clamped.
     pub(crate) fn tamed(&self) -> PointForce {
         let finite = |vector: DVec3| if vector.is_finite() { vector } else { DVec3::ZERO };
         let scale = self.force_n.abs().max_element();
         let force_n = if scale > LARGEST_FORCE_N { self.force_n * (LARGEST_FORCE_N / scale) } else { self.force_n };
-        // A point no further from its joint than a body is long.
+        // A point is clamped to a body's length from its joint.
         let point = self.point.map(|point| finite(point).clamp_length_max(10.0));
         PointForce { node: self.node, point, force_n: finite(force_n) }
     }

@@ -1,9 +1,9 @@
-//! What a push does to the hips and the legs (section 4.3).
+//! The effect of a push on the hips and the legs (section 4.3).
 //!
-//! EQ7 as printed divides a moment by a mass and drifts for ever. Here the push accelerates the whole body by its mass and
-//! its inertia about the hips, and feet that hold pull the hips back: an implicit, critically damped return. What is
-//! shown of it saturates smoothly, and gives way to the legs: a foot that the input has on the ground stays there, so the
-//! hips sink and stay within reach of both ankles.
+//! EQ7 as printed divides a moment by a mass and drifts for ever. Here the push accelerates the whole body by its mass
+//! and its inertia about the hips, and the held feet pull the hips back: an implicit, critically damped return. The
+//! shown deviation saturates smoothly and is limited by the legs: feet stay where the input has them, so the hips sink
+//! and stay within reach of both ankles.
 
 use crate::force::PointForce;
 use glam::{DQuat, DVec3};
@@ -12,17 +12,17 @@ use sinew_body::humanoid::{Body, LEGS, LegPose, Pose, exp, shift_within_reach, s
 /// Frequency of the return \[rad/s\].
 const RETURN: f64 = 5.0;
 
-/// Where the shown shift saturates \[m for a 1.7 m body\].
+/// Saturation of the shown shift \[m for a 1.7 m body\].
 const LARGEST_SHIFT_M: f64 = 0.05;
 
-/// Where the shown turn saturates \[rad\]: 15 degrees. Whole-body yaw inertia is only about 1 kg m², so that an unsaturated
-/// 400 N on a hand would turn the hips by half a right angle.
+/// Saturation of the shown rotation \[rad\]: 15 degrees. Whole-body yaw inertia is only about 1 kg m², so that an
+/// unsaturated 400 N on a hand would turn the hips by half a right angle.
 const LARGEST_TURN: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
-/// Halvings on the way to the largest departure that the legs' joints allow: to a thousandth.
+/// Bisections to find the largest deviation that the legs' joints allow: to a thousandth.
 const LIMIT_HALVINGS: usize = 10;
 
-/// The hips' departure from the input.
+/// The hips' deviation from the input.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct HipsState {
     shift: DVec3,
@@ -31,7 +31,7 @@ pub(crate) struct HipsState {
     spin: DVec3,
 }
 
-/// What is shown of it.
+/// The shown part of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct HipsDeviation {
     /// \[m\], world.
@@ -63,7 +63,7 @@ impl HipsState {
         self.spin = (self.spin + (gain - self.turn * (RETURN * RETURN)) * dt) * implicit;
         self.shift += self.velocity * dt;
         self.turn += self.spin * dt;
-        // What nobody sees any more is forgotten, so that a body at rest is exactly the input.
+        // An invisibly small deviation is set to zero, so that a body at rest is exactly the input.
         if self.shift.length() < 1e-9 && self.velocity.length() < 1e-9 {
             (self.shift, self.velocity) = (DVec3::ZERO, DVec3::ZERO);
         }
@@ -72,12 +72,12 @@ impl HipsState {
         }
     }
 
-    /// Whether the hips are away from the input at all.
+    /// Whether the hips deviate from the input.
     pub(crate) fn departs(&self) -> bool {
         self.shift != DVec3::ZERO || self.turn != DVec3::ZERO
     }
 
-    /// What is shown on the input's pose: saturated, and within reach of the input's ankles.
+    /// The deviation applied to the input's pose: saturated, and within reach of the input's ankles.
     pub(crate) fn shown(&self, body: &Body, input: &Pose) -> HipsDeviation {
         if !self.departs() {
             return HipsDeviation::default();
@@ -95,7 +95,7 @@ impl HipsState {
         if legs.are_within_limits(body, input, &shown) {
             return shown;
         }
-        // The input's own legs are within their limits: part of the way is, too.
+        // The input's own legs are within their limits, so a part of the deviation is too.
         let (mut inside, mut outside) = (0.0, 1.0);
         for _ in 0..LIMIT_HALVINGS {
             let middle = 0.5 * (inside + outside);
@@ -107,7 +107,7 @@ impl HipsState {
     }
 }
 
-/// The input's legs, by which the hips' departure is bounded.
+/// The input's legs, which bound the hips' deviation.
 struct Legs {
     hips: DVec3,
     legs: [LegPose; 2],
@@ -123,12 +123,12 @@ impl Legs {
         Legs { hips: positions[0], legs }
     }
 
-    /// Both hip joints when the hips are turned \[m\].
+    /// Positions of both hip joints for rotated hips \[m\].
     fn carried(&self, turn: DQuat) -> [DVec3; 2] {
         self.legs.map(|leg| self.hips + turn * (leg.hip - self.hips))
     }
 
-    /// The departure with its shift brought within reach of both ankles.
+    /// The deviation with its shift limited to the reach of both ankles.
     fn reached(&self, wanted: HipsDeviation) -> HipsDeviation {
         let shift = shift_within_reach(&self.legs, self.carried(exp(wanted.turn)), wanted.shift);
         HipsDeviation { shift, ..wanted }

@@ -1,11 +1,11 @@
-//! The wanted motion as the response sees it: one frame, and the step that led to it.
+//! The wanted motion as input of the response: one frame, and the step that led to it.
 
 use crate::torque::{Differences, steps, world_turn};
 use crate::upper_body::{Coordinates24, UpperBody, locals};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Pose, UPPER_NODES};
 
-/// A wanted pose with all that is needed of it and of the one before, each found once.
+/// A wanted pose with the quantities derived from it and from the one before, each computed once.
 #[derive(Clone, Debug)]
 pub(crate) struct Input {
     pub pose: Pose,
@@ -41,7 +41,7 @@ impl Input {
         }
     }
 
-    /// The torque \[N m\] that this frame's motion takes, given the next frame.
+    /// The torque \[N m\] of this frame's motion, given the next frame.
     pub(crate) fn torque(&self, next: &Input, upper: &mut UpperBody, time_step_secs: f64) -> Coordinates24 {
         Differences {
             time_step_secs,

@@ -1,11 +1,11 @@
-//! A motion answers to pushes: dynamics in near-unactuated coordinates.
+//! Physical response of a motion to pushes: dynamics in near-unactuated coordinates.
 //!
 //! The method of Y. Ye and C. K. Liu, *Animating Responsive Characters with Dynamic Constraints in Near-Unactuated
-//! Coordinates* (2008), made to hold on real motion. Once per clip, inverse dynamics finds the torques that the motion
-//! uses ([`torques`]); the directions in which it uses least are its near-unactuated coordinates ([`Basis`]). Per frame,
-//! one small optimisation ([`Response::step`]) finds the next pose of the upper body: it obeys the equations of motion in
-//! those coordinates and follows the motion in all others. So a pushed character yields where its own motion is slack
-//! and recovers in its own style; there are no gains to tune and there is no simulator.
+//! Coordinates* (2008), made robust on captured motion. Once per clip, inverse dynamics finds the torques that the
+//! motion uses ([`torques`]); the directions in which it uses least are its near-unactuated coordinates ([`Basis`]).
+//! Per frame, one small optimisation ([`Response::step`]) finds the next pose of the upper body: it satisfies the
+//! equations of motion in those coordinates and follows the motion in all others. So a pushed character is compliant
+//! where its own motion uses little torque, and recovers in its own style; there are no gains to tune and no simulator.
 //!
 //! ```
 //! use sinew_body::humanoid::{Body, Node, Pose};
@@ -29,7 +29,7 @@
 //! # Ok::<(), sinew_response::BasisError>(())
 //! ```
 //!
-//! This crate knows nothing of worlds, engines or files.
+//! This crate does not know worlds, engines or files.
 
 mod basis;
 mod force;

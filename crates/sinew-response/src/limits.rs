@@ -1,4 +1,4 @@
-//! Which joints meet their limits, without trigonometry for those that are clearly inside.
+//! Joint limit checks, without trigonometry for joints that are clearly inside.
 
 use glam::DQuat;
 use sinew_body::humanoid::{Body, Limit, Node, UPPER_NODES};
@@ -15,7 +15,7 @@ struct Near {
     /// 1 / half-axis of the swing ellipse, by sign (negative, positive) \[1/rad\].
     per_x: [f64; 2],
     per_z: [f64; 2],
-    /// Tangents of half the least and largest twist.
+    /// Tangents of half the minimum and maximum twist.
     twist: [f64; 2],
 }
 

@@ -1,10 +1,10 @@
 //! A response on a stream.
 //!
-//! The torque that a motion uses at one instant needs the poses before and after it, twice differentiated, so it needs low-pass
-//! filtering. Over a clip that is done forward and backward, without delay. On a stream only the past is there: the filter is
-//! causal, and what it tells lags by its group delay, about 37 ms at 6 Hz. That matters little, because the response only
-//! sees by how much its own motion *differs* from the filtered one: the deviation that comes out is put on the wanted pose as
-//! it is, unfiltered and not late.
+//! The torque that a motion uses at one instant needs the poses before and after it, twice differentiated, so it needs
+//! low-pass filtering. Over a clip that is done forward and backward, without delay. On a stream only the past is
+//! known: the filter is causal, and its output lags by its group delay, about 37 ms at 6 Hz. That matters little,
+//! because the response only uses by how much its own motion *differs* from the filtered one: the resulting deviation
+//! is applied to the wanted pose itself, unfiltered and without lag.
 
 use crate::basis::Basis;
 use crate::force::PointForce;
@@ -14,11 +14,11 @@ use glam::DVec3;
 use sinew_body::humanoid::{Body, Deviation, Node, Pose};
 use sinew_motion::{LowPass, LowPassStream};
 
-/// A character that answers to pushes while it follows a live stream of poses: one [`advance`](Live::advance) a frame.
+/// A character that responds to pushes while it follows a live stream of poses: one [`advance`](Live::advance) a frame.
 ///
-/// A force that the engine finds on the pose shown in one frame is handed in with the next wanted pose and shows in the pose
-/// returned: one frame of delay, and no more. No call allocates or panics; a pose that is not finite is replaced by the last
-/// good one.
+/// A force that the engine computes on the pose of one frame is passed with the next wanted pose and takes effect in
+/// the returned pose: one frame of delay, and no more. No call allocates or panics; a pose that is not finite is
+/// replaced by the last good one.
 ///
 /// ```
 /// use glam::DVec3;
@@ -57,7 +57,7 @@ impl Live {
         }
     }
 
-    /// Advances one frame: `wanted` is the stream's new pose, `forces` those found on the pose returned last.
+    /// Advances one frame: `wanted` is the stream's new pose, `forces` those that act on the pose returned last.
     pub fn advance(&mut self, wanted: &Pose, forces: &[PointForce]) -> Pose {
         self.advance_on_moving_ground(wanted, forces, DVec3::ZERO)
     }
@@ -73,12 +73,12 @@ impl Live {
         wanted.deviated(self.response.body(), &self.response.deviation())
     }
 
-    /// How far the pose given out last is from the wanted one, see [`Response::deviation`].
+    /// The deviation of the last returned pose from the wanted one, see [`Response::deviation`].
     pub fn deviation(&self) -> Deviation {
         self.response.deviation()
     }
 
-    /// What the last step did.
+    /// Report of the last step.
     pub fn report(&self) -> Report {
         self.response.report()
     }

@@ -1,11 +1,11 @@
-//! A clip as the poses that the response works on.
+//! A clip as poses at the response's rate.
 
 use crate::settings::{CUTOFF_HZ, Settings};
 use glam::DQuat;
 use sinew_body::humanoid::{Body, Node, Pose, Reduction};
 use sinew_motion::{Clip, LowPass};
 
-/// Poses of the 18 bodies at the response's own rate, low-pass filtered: what torques are computed from.
+/// Poses of the 18 bodies at the response's own rate, low-pass filtered, from which torques are computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     poses: Vec<Pose>,
@@ -38,7 +38,7 @@ impl Motion {
         Motion { poses, start_secs, time_step_secs }
     }
 
-    /// Poses that are already at the response's rate, as they are.
+    /// Poses that already have the response's rate, unchanged.
     pub fn of_poses(poses: Vec<Pose>, settings: &Settings) -> Motion {
         Motion { poses, start_secs: 0.0, time_step_secs: settings.time_step_secs }
     }
@@ -65,7 +65,7 @@ impl Motion {
         &self.poses[index(from_secs).min(end)..end]
     }
 
-    /// The body with its joint limits widened to all that this motion does.
+    /// The body with its joint limits widened to contain all poses of this motion.
     pub fn widen(&self, body: &mut Body) {
         for pose in &self.poses {
             body.widen_limits(pose);

@@ -10,7 +10,7 @@
 //! | w2 y / dt | EQ4: damp velocity, relative to the input's |
 //! | w3 / dt · Ěᵀ(A y + u₀ − u₋) | EQ5: for a while after a push muscles hold their torque |
 //! | wc Êᵀ(A y + u₀ − ū + K(δ + y) + D y / dt) | EQ2: dynamics in the near-unactuated coordinates |
-//! | w (j y − t) | anything else that is wanted of this step, see [`Row`] |
+//! | w (j y − t) | further objectives of this step, see [`Row`] |
 //!
 //! Tracking and damping weigh each coordinate by itself, a diagonal B. The k rows of EQ2, Rᵀy + v, are few, so they are
 //! met by k multipliers (the Woodbury identity):
@@ -36,7 +36,7 @@ pub(crate) type Matrix<S> = [[S; N]; N];
 /// Weight that holds a coordinate at its limit \[1/rad\]: far above every other row, far below what costs digits.
 const HOLD: f64 = 1e6;
 
-/// What the objectives are made of.
+/// Parameters of the objectives.
 #[derive(Clone, Debug)]
 pub struct Weighing<S: Real> {
     /// Time step \[s\].
@@ -55,7 +55,7 @@ pub struct Weighing<S: Real> {
     pub damps_relative: bool,
 }
 
-/// The objectives of one body and basis: what stays the same from frame to frame.
+/// The objectives of one body and basis: the part that is constant over frames.
 #[derive(Clone, Debug)]
 pub struct Objective<S: Real> {
     k: usize,
@@ -88,22 +88,22 @@ pub struct Frame<'a, S: Real> {
     pub input_step: &'a [S; N],
     /// u₀ \[N m\].
     pub torque: &'a [S; N],
-    /// The torque that the constraint aims at: ū, or zero \[N m\].
+    /// Target torque of the constraint: ū, or zero \[N m\].
     pub aim: &'a [S; N],
     /// u₋, torque of the frame before \[N m\], and w3 now \[s/(N m)\]; while a reflex is pending.
     pub reflex: Option<(&'a [S; N], S)>,
-    /// Which coordinates are held (1, else 0), and at what step \[rad\]: joints that have reached their limit.
+    /// Which coordinates are held (1, else 0), and their step \[rad\]: joints that have reached their limit.
     pub held: Option<(&'a [S; N], &'a [S; N])>,
-    /// What else is wanted.
+    /// Further objectives.
     pub rows: &'a [Row<S>],
 }
 
 /// One more objective, ‖weight (direction · y − wanted)‖².
 #[derive(Clone, Copy, Debug)]
 pub struct Row<S: Real> {
-    /// What the step is measured along, in any unit per radian.
+    /// Direction along which the step is measured, in any unit per radian.
     pub direction: [S; N],
-    /// How far it is to go, in that unit.
+    /// The wanted step, in that unit.
     pub wanted: S,
     /// Per that unit.
     pub weight: S,
@@ -150,7 +150,7 @@ impl<S: Real> Objective<S> {
         }
     }
 
-    /// The step y \[rad\] that minimises the objectives. Exactly zero where nothing asks for a step.
+    /// The step y \[rad\] that minimises the objectives. Exactly zero if no objective requires a step.
     pub fn solve(&self, frame: &Frame<S>) -> [S; N] {
         // The number of rows is known to the compiler, so that a row of R stays in registers.
         match self.k.div_ceil(2) {
@@ -177,7 +177,7 @@ impl<S: Real> Objective<S> {
         std::array::from_fn(|i| frame.torque[i] + moved[i] * per_square)
     }
 
-    /// What is left of the dynamic constraint after a step, by direction \[N m\]; `torque` is [`Self::torque_after`].
+    /// Residual of the dynamic constraint after a step, by direction \[N m\]; `torque` is [`Self::torque_after`].
     pub fn left(&self, frame: &Frame<S>, step: &[S; N], torque: &[S; N]) -> [S; N] {
         let mut left = [S::ZERO; N];
         for i in 0..N {
@@ -334,7 +334,7 @@ impl<S: Real> Objective<S> {
         right
     }
 
-    /// R and v: what is left of the constraint is Rᵀ y + v \[N m\].
+    /// R and v: the residual of the constraint is Rᵀ y + v \[N m\].
     #[inline(always)]
     fn constraint<const K: usize>(&self, frame: &Frame<S>) -> ([[S; K]; N], [S; K]) {
         let per_square = self.per_square();
@@ -409,7 +409,7 @@ impl Coupled {
     }
 }
 
-/// Degrees of freedom meet in the mass matrix when one lies on the other's way to the base.
+/// The mass matrix couples two degrees of freedom if one lies on the other's path to the base.
 fn coupled<S: Real>(tree: &Tree<S>) -> [Coupled; N] {
     let meets = |i: usize, j: usize| i == j || tree.ancestors(i.max(j)).any(|above| above == i.min(j));
     std::array::from_fn(|i| {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
 use sinew_body::humanoid::{Body, Node, Pose, UPPER_DOFS as N, exp};
 
-/// Everything that a frame borrows.
+/// The data that a frame borrows.
 struct Case {
     mass: Matrix<f64>,
     directions: Vec<Vector<f64>>,

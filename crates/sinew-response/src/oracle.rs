@@ -1,7 +1,7 @@
 //! The upper body's dynamics by another route, for tests only: plain vectors and quaternions, one quantity at a time.
 //!
-//! The legs cannot touch the torques above once the hips' motion is given, so only twelve bodies take part. Everything is
-//! in world axes about the hips' origin: moments then add without transforms, and a character far from the world's
+//! The legs do not affect the torques above once the hips' motion is given, so only twelve bodies take part. Everything
+//! is in world axes about the hips' origin: moments then add without transforms, and a character far from the world's
 //! origin keeps its digits. Joints are spherical: a joint's rate is the full angular velocity of the child relative to
 //! the parent, in the child's frame, of which the 24 coordinates are components; the rest is prescribed by the input.
 
@@ -24,7 +24,7 @@ const PARENT: [usize; UPPER_NODES] = {
     parents
 };
 
-/// How the hips move: prescribed.
+/// The prescribed motion of the hips.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct OracleHips {
     /// Angular velocity, world \[rad/s\].
@@ -44,7 +44,7 @@ pub(crate) struct Oracle {
     inertia: [DVec3; UPPER_NODES],
 }
 
-/// Where the bodies are in one frame, about the hips' origin.
+/// Positions of the bodies in one frame, about the hips' origin.
 #[derive(Clone, Debug)]
 pub(crate) struct Placement {
     pub world: [DQuat; UPPER_NODES],

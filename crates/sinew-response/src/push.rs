@@ -18,7 +18,7 @@ pub enum PushFrame {
 /// A force on a part of the body for a while.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push {
-    /// Where it acts.
+    /// The part on which it acts.
     pub part: Part,
     /// The point of the part, in its anatomical frame from its joint \[m\]; `None` for its centre of mass.
     pub point: Option<DVec3>,
@@ -26,13 +26,13 @@ pub struct Push {
     pub force_n: DVec3,
     /// Its axes.
     pub frame: PushFrame,
-    /// When it begins, from the clip's first frame \[s\].
+    /// Start time, from the clip's first frame \[s\].
     pub at_secs: f64,
-    /// How long it lasts \[s\].
+    /// Duration \[s\].
     pub for_secs: f64,
 }
 
-/// The ground accelerates for a while, and from then on moves at the speed it has reached.
+/// A platform motion: the ground accelerates for a while, and from then on keeps the speed that it has reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundJerk {
     /// The acceleration \[m/s²\].
@@ -45,8 +45,8 @@ pub struct GroundJerk {
     pub for_secs: f64,
 }
 
-/// The whole frames in which something acts, and the factor on it that keeps its impulse when its time is no whole number
-/// of frames.
+/// The whole frames in which a push acts, and the factor on its force that keeps the impulse if its duration is not a
+/// whole number of frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Span {
     pub first: usize,
@@ -60,7 +60,7 @@ impl Span {
         let frames = |secs: f64| (secs / time_step_secs).clamp(0.0, 1e9);
         // An onset between two frames acts from the next; rounding must not move one that lies on a frame.
         let first = (frames(at_secs - start_secs) - 1e-6).ceil().max(0.0) as usize;
-        // What lies before the motion begins is lost.
+        // The part before the motion begins is ignored.
         let exact = frames(for_secs - (start_secs - at_secs).max(0.0));
         let count = exact.round().max(if exact > 0.0 { 1.0 } else { 0.0 });
         Span { first, count: count as usize, scale: if count > 0.0 { exact / count } else { 0.0 } }

@@ -1,4 +1,4 @@
-//! The response itself: pose in, forces in, pose out.
+//! The response: pose in, forces in, pose out.
 
 use crate::basis::Basis;
 use crate::force::PointForce;
@@ -16,27 +16,28 @@ use sinew_body::humanoid::{Body, Deviation, LEGS, Limit, Node, Pose, UPPER_DOFS,
 /// A jump of the push's generalised force by more than this is a new perturbation \[N m for an 80 kg body\].
 const STARTLE_N_M: f64 = 1.0;
 
-/// ... beyond this share of the force that is there already: under a lasting push the arm of a force changes all the time.
+/// ... beyond this share of the present generalised force: under a lasting push the lever arm of a force changes all
+/// the time.
 const STARTLE_SHARE: f64 = 0.3;
 
 /// A jump of the ground's acceleration by more than this is one too \[m/s²\].
 const STARTLE_M_PER_S2: f64 = 1.0;
 
-/// No joint leaves the input faster than this \[rad/s\]: about the fastest elbow of a thrown ball. It keeps velocities, whose
-/// squares enter the dynamics, from running away under forces beyond all reason.
-const FASTEST: f64 = 40.0;
+/// Maximum angular speed of a joint relative to the input \[rad/s\]: about the fastest elbow of a thrown ball. It keeps
+/// velocities, whose squares enter the dynamics, bounded under extreme forces.
+const MAX_SPEED: f64 = 40.0;
 
-/// Halvings that find where a joint meets its limit: to 1e-5 of the way.
+/// Bisections to find where a joint meets its limit: to 1e-5 of the step.
 const LIMIT_HALVINGS: usize = 17;
 
-/// A deviation that is nowhere larger, and does not grow by more in a step, is forgotten \[rad\]: nobody sees it, and the
-/// body is on its input exactly again.
+/// A deviation that is nowhere larger, and does not grow by more in a step, is set to zero \[rad\]: it is invisible,
+/// and the body is exactly on its input again.
 const FORGOTTEN: f64 = 1e-12;
 
-/// A character that answers to pushes while it follows a motion: one [`step`](Response::step) a frame.
+/// A character that responds to pushes while it follows a motion: one [`step`](Response::step) a frame.
 ///
-/// It keeps the two latest wanted poses and how far it is from them; nothing of the future, so it runs on a live stream as
-/// it does on a clip. A step allocates nothing and never panics; any finite force gives a finite pose.
+/// It keeps the two latest wanted poses and its deviation from them; it never looks ahead, so it runs on a live stream
+/// as on a clip. A step does not allocate and never panics; any finite force gives a finite pose.
 #[derive(Clone, Debug)]
 pub struct Response {
     body: Body,
@@ -54,11 +55,11 @@ pub struct Response {
 /// What one step did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
-    /// Length of what is left of the dynamic constraint after the solve, Êᵀ(u − ū + K(δ) + D(δ̇)) \[N m\].
+    /// Norm of the residual of the dynamic constraint after the solve, Êᵀ(u − ū + K(δ) + D(δ̇)) \[N m\].
     pub residual_n_m: f64,
     /// Weight of the reflex delay in this step, from 1 at a push to 0.
     pub reflex: f64,
-    /// How many joints met their limit.
+    /// Number of joints that met their limit.
     pub limited: usize,
 }
 
@@ -66,9 +67,10 @@ pub struct Report {
 struct State {
     /// The wanted pose of this frame.
     input: Input,
-    /// This frame's pose as given out.
+    /// This frame's returned pose.
     output: Pose,
-    /// The hips as given out in the frame before: their position without the ground's shift, and their turn since \[rad\].
+    /// The returned hips of the frame before: their position without the ground's shift, and their rotation since then
+    /// \[rad\].
     hips_before: DVec3,
     hips_turn: DVec3,
     /// Each joint's turn from the frame before to this one \[rad\], child's frame.
@@ -141,15 +143,15 @@ impl Response {
         }
     }
 
-    /// Forgets everything and continues from a motion that went from `before` to `now`, one time step apart.
+    /// Resets the state and continues from a motion that went from `before` to `now`, one time step apart.
     pub fn restart(&mut self, before: &Pose, now: &Pose) {
         self.state = State::at(before, now);
     }
 
-    /// Advances one frame. `wanted` is the input's next pose; `forces` act now, on the pose given out last, and show in the
-    /// pose that is returned.
+    /// Advances one frame. `wanted` is the input's next pose; `forces` act now, on the last returned pose, and take
+    /// effect in the pose that is returned.
     ///
-    /// A wanted pose that is not finite is refused: the last good one is kept.
+    /// A wanted pose with NaN or infinite values is refused: the last valid one is kept.
     pub fn step(&mut self, wanted: &Pose, forces: &[PointForce]) -> Pose {
         self.step_on_moving_ground(wanted, forces, DVec3::ZERO)
     }
@@ -182,7 +184,7 @@ impl Response {
         self.state.output
     }
 
-    /// The response's own step, once the input and the hips are known.
+    /// The response's own step, given the input and the hips.
     fn respond(
         &mut self,
         next: Input,
@@ -199,7 +201,7 @@ impl Response {
         let hips_next = exp(shown.turn) * next.pose.world[0];
         let hips_turn = world_turn(state.output.world[0], hips_next);
 
-        // The response, were its deviation to stay as it is.
+        // The response with an unchanged deviation.
         let mut kept = next.step;
         let mut local = state.input.local;
         for node in 1..UPPER_NODES {
@@ -228,7 +230,7 @@ impl Response {
         let torque_before = state.torque_before.unwrap_or(torque);
         rows.clear();
         if !tasks.is_empty() {
-            // On ground at rest, as the tasks see the world.
+            // On ground at rest, the frame of the tasks.
             let kept = posed(body, &next, &state.turned, &shown, DVec3::ZERO);
             rows_of(tasks, &kept, body, dt, rows);
         }
@@ -255,7 +257,7 @@ impl Response {
             }
         }
         if limited > 0 {
-            // The joint stops there, and the others feel it stop.
+            // The joint stops there, which affects the others through the next solve.
             frame.held = Some((&held, &stops));
             step = slowed(objective.solve(&frame), dt);
             (turns, turned) = grown(&state.turned, &step);
@@ -290,8 +292,8 @@ impl Response {
         report
     }
 
-    /// How far the pose given out last is from the wanted one, for [`Overlay`](sinew_body::humanoid::Overlay). Shifts are in
-    /// metres of the body.
+    /// The deviation of the last returned pose from the wanted one, for [`Overlay`](sinew_body::humanoid::Overlay).
+    /// Shifts are in metres of the body.
     pub fn deviation(&self) -> Deviation {
         Deviation {
             hips_shift: self.state.shown.shift,
@@ -301,12 +303,12 @@ impl Response {
         }
     }
 
-    /// What the last step did.
+    /// Report of the last step.
     pub fn report(&self) -> Report {
         self.report
     }
 
-    /// The body, its limits widened to all that the input has done so far.
+    /// The body, its limits widened to contain all input so far.
     pub fn body(&self) -> &Body {
         &self.body
     }
@@ -316,7 +318,7 @@ impl Response {
         &self.settings
     }
 
-    /// Sets the deviation and its rate as they are, to study how it grows or dies.
+    /// Sets the deviation and its rate, to study its growth or decay.
     pub(crate) fn set_deviation(&mut self, deviation: &Coordinates24, last_growth: &Coordinates24) {
         let state = &mut self.state;
         let growth = to_vectors(last_growth);
@@ -327,7 +329,7 @@ impl Response {
         state.torque_before = None;
     }
 
-    /// The deviation's coordinates, and by how much the last step grew them.
+    /// The deviation's coordinates, and their change in the last step.
     pub(crate) fn deviation_and_growth(&self) -> (Coordinates24, Coordinates24) {
         let state = &self.state;
         let growth =
@@ -338,7 +340,7 @@ impl Response {
 
 impl State {
     /// The fading weight of the reflex delay (EQ5), counted in whole frames: 1 in the frame of a perturbation. A new
-    /// perturbation counts once the old one's delay is over; a lasting contact is only one.
+    /// perturbation counts only after the old one's delay; a lasting contact is one perturbation.
     fn reflex(&mut self, load: &Coordinates24, ground: DVec3, mass_kg: f64, dt: f64) -> f64 {
         let frames = reflex_frames(dt);
         let jump: f64 = load.iter().zip(&self.load_before).map(|(now, before)| (now - before) * (now - before)).sum();
@@ -383,13 +385,13 @@ fn hold(node: usize, turn: DVec3, coordinates: &mut Coordinates24) {
     }
 }
 
-/// The step with every joint's turn within [`FASTEST`]; what is not a number stays where it is.
+/// The step with every joint's rotation clamped to [`MAX_SPEED`]; a NaN step becomes zero.
 fn slowed(step: Coordinates24, dt: f64) -> Coordinates24 {
-    let largest = FASTEST * dt;
+    let largest = MAX_SPEED * dt;
     step.map(|turn| if turn.is_finite() { turn.clamp(-largest, largest) } else { 0.0 })
 }
 
-/// The furthest part of a deviation that stays inside a limit; the wanted rotation itself is inside.
+/// The largest part of a deviation that stays inside a limit; the wanted rotation itself is inside.
 fn reined_in(limit: &Limit, local: DQuat, deviation: DVec3) -> DVec3 {
     let (mut inside, mut outside) = (0.0, 1.0);
     for _ in 0..LIMIT_HALVINGS {

@@ -1,19 +1,20 @@
-//! What can be chosen, and the method's constants.
+//! Settings of the response, and the method's constants.
 
 use sinew_body::humanoid::{Node, UPPER_DOFS, upper_dofs};
 
 /// A named reading of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Preset {
-    /// What holds on every clip: the dynamic constraint as a penalty, aimed at the input's own torque, with a passive
+    /// Robust on every clip: the dynamic constraint as a penalty, aimed at the input's own torque, with a passive
     /// spring and damper in the near-unactuated coordinates. The default.
     #[default]
     Robust,
-    /// Close to the print: the constraint as a softer penalty, aimed at zero torque, nothing passive. Shows the paper's
-    /// sweep over k; leaves the input a little even without a push.
+    /// Close to the paper as printed: the constraint as a softer penalty, aimed at zero torque, without passive
+    /// elements. Shows the paper's sweep over k; deviates a little from the input even without a push.
     Paper,
-    /// The print: the constraint is hard. Its zero dynamics are unstable at any time step (they grow by about e^5 a second
-    /// at k = 10), so that even an unpushed walk leaves the input within a few cycles; kept to show just that.
+    /// The paper as printed: the constraint is hard. Its zero dynamics are unstable at any time step (they grow by
+    /// about e^5 a second at k = 10), so that even an unpushed walk diverges from the input within a few cycles; kept
+    /// to show just that.
     Literal,
 }
 
@@ -27,22 +28,23 @@ pub enum Coordinates {
     High,
 }
 
-/// Everything that can be chosen about a response.
+/// The settings of a response.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The reading of the paper.
+    /// The preset.
     pub preset: Preset,
-    /// How many coordinates obey dynamics, k: 0 to 24. The paper uses 10, and 5 for slow forms.
+    /// Number of coordinates under dynamics, k: 0 to 24. The paper uses 10, and 5 for slow forms.
     pub k: usize,
-    /// Which ones.
+    /// Which coordinates.
     pub coordinates: Coordinates,
-    /// How far the body yields, from [`Settings::MIN_COMPLIANCE`] over 1 to [`Settings::MAX_COMPLIANCE`]; only the robust preset
-    /// has this dial. It moves tracking (w1), damping (w2) and the passive spring (ω) together, with exponents chosen on
-    /// walks, runs, a sneak, punches, a dance and a martial-arts form so that the body also comes back. Towards loose,
-    /// damping gives way faster than tracking, since it is damping against the input that makes a recovery slow; towards
-    /// stiff they keep their ratio, and the dynamic constraint's penalty sinks, since it is what carries a fast motion away.
-    /// From 0.25 to 4 a push deflects a walk's joints from half to one and a half times as far as at 1.
-    /// [`stable_compliance`](crate::stable_compliance) tells how far the dial may go on a motion.
+    /// Compliance of the body, from [`Settings::MIN_COMPLIANCE`] (stiff) over 1 to [`Settings::MAX_COMPLIANCE`]
+    /// (loose); only the robust preset uses it. It moves tracking (w1), damping (w2) and the passive spring (ω)
+    /// together, with exponents chosen on walks, runs, a sneak, punches, a dance and a martial-arts form so that the
+    /// body also comes back. Towards loose, damping falls faster than tracking, since it is damping against the input
+    /// that makes a recovery slow; towards stiff they keep their ratio, and the dynamic constraint's penalty falls,
+    /// since it is the term that makes a fast motion diverge. From 0.25 to 4 a push deflects a walk's joints from half
+    /// to one and a half times as far as at 1. [`stable_compliance`](crate::stable_compliance) computes the maximum for
+    /// a motion.
     pub compliance: f64,
     /// Time from one frame to the next \[s\].
     pub time_step_secs: f64,
@@ -61,22 +63,22 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The stiffest setting of the dial.
+    /// Minimum compliance: the stiffest setting.
     pub const MIN_COMPLIANCE: f64 = 0.25;
-    /// The loosest.
+    /// Maximum compliance: the loosest setting.
     pub const MAX_COMPLIANCE: f64 = 4.0;
 }
 
 /// Acceleration of gravity \[m/s²\], world axes.
 pub(crate) const GRAVITY: glam::DVec3 = glam::DVec3::new(0.0, -9.81, 0.0);
 
-/// Where input motion is low-pass filtered before it is differentiated twice \[Hz\].
+/// Cut-off of the low-pass filter for input motion before it is differentiated twice \[Hz\].
 pub(crate) const CUTOFF_HZ: f64 = 6.0;
 
 /// Body mass for which the torque weights are stated \[kg\].
 pub(crate) const REFERENCE_MASS_KG: f64 = 80.0;
 
-/// How long muscles take to answer \[s\]: the paper's reflex delay, after which w3 has faded to nothing.
+/// Reaction time of muscles \[s\]: the paper's reflex delay, after which w3 has faded to zero.
 pub(crate) const REFLEX_SECS: f64 = 0.2;
 
 /// The weights of one optimisation, resolved from settings and body.

@@ -6,8 +6,8 @@
 
 use sinew_body::dynamics::Real;
 
-/// A pivot is at least this part of the diagonal entry that it came from: one that is not positive (rounding on a
-/// hopeless scale) is lifted, so that the result is finite for finite input.
+/// A pivot is at least this part of the diagonal entry that it came from: one that is not positive (extreme rounding)
+/// is raised, so that the result is finite for finite input.
 const MIN_PIVOT: f64 = 1e-14;
 
 /// And at least this.
@@ -32,7 +32,7 @@ impl<S: Real, const N: usize> Factor<S, N> {
         let mut factor = Factor { columns: [[S::ZERO; N]; N], rows: [[S::ZERO; N]; N], inverse: [S::ZERO; N] };
         let mut pivots = [S::ZERO; N];
         if N == 24 {
-            // What lies left of the diagonal is left out by blocks.
+            // Entries left of the diagonal are skipped by blocks.
             factor.eliminate::<0, 8, 24>(matrix, &mut pivots);
             factor.eliminate::<8, 16, 16>(matrix, &mut pivots);
             factor.eliminate::<16, 24, 8>(matrix, &mut pivots);

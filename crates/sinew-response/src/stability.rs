@@ -1,8 +1,8 @@
-//! Whether small deviations die out.
+//! Stability: whether small deviations decay.
 //!
-//! The response to a small deviation is linear, with coefficients that follow the motion. Over a stretch of motion it is
-//! one matrix, and if the motion went on repeating that stretch, deviations would grow by the matrix's spectral radius each
-//! time (Floquet's theory of periodic systems). Below 1 the body comes back from any small push by itself.
+//! The response to a small deviation is linear, with coefficients that follow the motion. Over a stretch of motion it
+//! is one matrix, and if the motion went on repeating that stretch, deviations would grow by the matrix's spectral
+//! radius each time (Floquet's theory of periodic systems). Below 1 the body recovers from any small push by itself.
 
 use crate::basis::Basis;
 use crate::response::Response;
@@ -16,33 +16,33 @@ const STATE: usize = 2 * UPPER_DOFS;
 /// Size of the trial deviations \[rad\]: far below where the response bends, far above rounding.
 const TRIAL: f64 = 1e-6;
 
-/// By what factor the largest small deviation grows over a stretch of motion, were the stretch to repeat: the spectral
-/// radius of the linearised steps' product. Joint limits are left out: they only ever stop a deviation.
+/// Growth factor of the largest small deviation over a stretch of motion that repeats: the spectral radius of the
+/// linearised steps' product. Joint limits are left out: they only stop a deviation.
 ///
-/// A stretch of fewer than three poses has no growth to tell: 0.
+/// 0 for a stretch of fewer than three poses.
 pub fn growth(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
     growth_over(body, basis, settings, &[motion])
 }
 
-/// Small deviations must shrink to this or less in a second, for the compliance dial to be turned so far: from 20 degrees to 2
-/// in five seconds.
+/// Maximum growth of small deviations in a second at which a compliance is accepted: from 20 degrees to 2 in five
+/// seconds.
 const GROWTH_PER_SECOND: f64 = 0.65;
 
 /// Poses in one stretch of a long motion: about a stride.
 const STRETCH: usize = 72;
 
-/// How many stretches of a long motion are looked at.
+/// Number of stretches of a long motion that are examined.
 const STRETCHES: usize = 6;
 
-/// The dial is searched in steps of this factor, and between two of them by halving.
+/// The compliance is searched in steps of this factor, then by bisection.
 const DIAL_STEP: f64 = std::f64::consts::SQRT_2;
 
-/// Halvings between two steps: to two per cent.
+/// Number of bisections: to two per cent.
 const HALVINGS: usize = 4;
 
-/// The compliance of `settings`, or the loosest below it at which small deviations die out on this motion within seconds; where
-/// they never do so fast, the one at which they die out fastest. Of a long motion that is no cycle, six stretches are looked
-/// at, as if they followed each other.
+/// The compliance of `settings`, or the maximum below it at which small deviations decay on this motion within seconds;
+/// if they never decay so fast, the one at which they decay fastest. Of a long motion that is not a cycle, six
+/// stretches are examined, as if they followed each other.
 pub fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
     let stretches: Vec<&[Pose]> = if motion.len() <= STRETCHES * STRETCH {
         vec![motion]
@@ -58,7 +58,7 @@ pub fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings, motion
     if least.1 <= allowed {
         return asked;
     }
-    // Always the same steps, whatever is asked, so that asking for more never gives less.
+    // The grid does not depend on the requested value, so that requesting more never gives less.
     let mut above = Settings::MAX_COMPLIANCE;
     while above > Settings::MIN_COMPLIANCE {
         let below = (above / DIAL_STEP).max(Settings::MIN_COMPLIANCE);

@@ -1,30 +1,29 @@
-//! What a body is to do besides following its motion: the paper's further objectives (a cup that stays upright, obstacles that are
-//! kept away from).
+//! Tasks of a body besides following its motion: the paper's further objectives (keep a cup upright, avoid obstacles).
 
 use crate::objective::Row;
 use crate::upper_body::DOFS;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, UPPER_NODES};
 
-/// One further objective of a step. It is weighed against the others: as far as joints, limits and motion allow.
+/// One further objective of a step. It is a soft objective: met as far as joints, limits and motion allow.
 ///
 /// An arm's task turns the arm's joints alone, and leaves the trunk to the motion. Tasks of hips and legs do nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Task {
-    /// An axis of a part is to point in a direction of the world; the turn about it is free.
+    /// Points an axis of a part in a direction of the world; the rotation about it is free.
     Aim {
         /// The part.
         node: Node,
         /// The axis, in the part's anatomical frame.
         axis: DVec3,
-        /// Where it is to point, in the world.
+        /// The wanted direction, in the world.
         direction: DVec3,
         /// Time in which the error falls to 1/e \[s\].
         within_secs: f64,
-        /// Against tracking (200) and damping (600 at 60 Hz) \[1/rad\].
+        /// Weight, relative to tracking (200) and damping (600 at 60 Hz) \[1/rad\].
         weight: f64,
     },
-    /// A point of a part is to be on the side of a plane to which its normal points.
+    /// Keeps a point of a part on the side of a plane to which its normal points.
     Clear {
         /// The part.
         node: Node,
@@ -34,7 +33,7 @@ pub enum Task {
         through: DVec3,
         /// The plane's normal.
         normal: DVec3,
-        /// Depth beyond the plane at which the weight is full \[m\]: it begins with nothing, so that nothing jerks.
+        /// Depth beyond the plane at which the weight is full \[m\]: it begins at 0, so that the motion does not jerk.
         full_depth_m: f64,
         /// Time in which the depth falls to 1/e \[s\].
         within_secs: f64,
@@ -44,8 +43,8 @@ pub enum Task {
 }
 
 impl Task {
-    /// Appends the rows of this task. `kept` is the next pose, were the deviation from the input to stay as it is; `joints`
-    /// are its positions.
+    /// Appends the rows of this task. `kept` is the next pose with an unchanged deviation from the input; `joints` are
+    /// its positions.
     pub(crate) fn add_rows(
         &self,
         kept: &Pose,
@@ -86,10 +85,10 @@ impl Task {
     }
 }
 
-/// Most rows of one step: two for each body.
+/// Maximum number of rows of one step: two for each body.
 pub(crate) const MAX_ROWS: usize = 2 * UPPER_NODES;
 
-/// Rows weigh no more than this: far above every other row, far below what costs digits.
+/// Maximum weight of a row: far above every other row, far below a loss of digits.
 const HEAVIEST: f64 = 1e5;
 
 fn push(row: Row<f64>, rows: &mut Vec<Row<f64>>) {
@@ -101,7 +100,7 @@ fn push(row: Row<f64>, rows: &mut Vec<Row<f64>>) {
     }
 }
 
-/// Part of an error that goes in a step when the whole falls to 1/e in a time.
+/// Part of an error that is removed in a step if the whole falls to 1/e in a time.
 fn share(time_step_secs: f64, within_secs: f64) -> f64 {
     -libm::expm1(-time_step_secs / within_secs.max(1e-6))
 }
@@ -116,7 +115,7 @@ fn shortest_turn(from: DVec3, to: DVec3) -> DVec3 {
     cross * (libm::atan2(sin, cos) / sin)
 }
 
-/// A row over the coordinates: what a turn of each does, from its axis and its joint's place in the world.
+/// A row over the coordinates: the effect of each, from its axis and its joint's position in the world.
 fn row_of(
     node: Node,
     pose: &Pose,

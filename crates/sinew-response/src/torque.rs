@@ -5,8 +5,8 @@ use crate::upper_body::{Coordinates24, HipsMotion, JointMotion, UpperBody};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Pose, UPPER_DOFS, UPPER_NODES, log};
 
-/// How the upper body turns from one pose to the next, each joint's rotation vector in the child's frame \[rad\], from the
-/// `parent_from_node` rotations.
+/// Rotations of the upper body's joints from one pose to the next, each a rotation vector in the child's frame \[rad\],
+/// from the `parent_from_node` rotations.
 pub(crate) fn steps(from: &[DQuat; UPPER_NODES], to: &[DQuat; UPPER_NODES]) -> [DVec3; UPPER_NODES] {
     let mut steps = [DVec3::ZERO; UPPER_NODES];
     for (node, step) in steps.iter_mut().enumerate().skip(1) {
@@ -60,15 +60,15 @@ impl Differences<'_> {
         (1.0 / self.time_step_secs, 1.0 / (self.time_step_secs * self.time_step_secs))
     }
 
-    /// The torque that this motion takes with no force but gravity.
+    /// The torque of this motion under gravity alone.
     pub(crate) fn torque(&self, upper: &mut UpperBody) -> Coordinates24 {
         let [rate, change] = &self.joints();
         upper.torques(&self.hips(), JointMotion { local: self.local, rate, change })
     }
 }
 
-/// Joint torques \[N m\] of the upper body's 24 coordinates in every frame but the first and the last, with no force but
-/// gravity (EQ1): the matrix U of the paper, a column a frame. Poses follow each other at `time_step_secs`, and should be
+/// Joint torques \[N m\] of the upper body's 24 coordinates in every frame but the first and the last, under gravity
+/// alone (EQ1): the matrix U of the paper, a column a frame. Poses follow each other at `time_step_secs`, and should be
 /// low-pass filtered (6 Hz): accelerations are second differences.
 pub fn torques(body: &Body, motion: &[Pose], time_step_secs: f64) -> Vec<[f64; UPPER_DOFS]> {
     let [first, second, rest @ ..] = motion else { return Vec::new() };

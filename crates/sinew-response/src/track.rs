@@ -9,16 +9,16 @@ use crate::settings::Settings;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Deviation, Node, Pose, log};
 
-/// What happens to a character.
+/// The disturbances of a character.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Disturbances<'a> {
     /// Forces on its parts.
     pub pushes: &'a [Push],
-    /// Jerks of the ground that it stands on.
+    /// Accelerations of the ground on which it stands.
     pub ground: &'a [GroundJerk],
 }
 
-/// How a character went through a motion: a pose, a deviation and a report for each of the motion's poses.
+/// The response over a motion: a pose, a deviation and a report for each of the motion's poses.
 #[derive(Clone, Debug)]
 pub struct Track {
     poses: Vec<Pose>,
@@ -77,17 +77,17 @@ impl Track {
         track
     }
 
-    /// The poses given out, one per pose of the motion.
+    /// The returned poses, one per pose of the motion.
     pub fn poses(&self) -> &[Pose] {
         &self.poses
     }
 
-    /// How far each is from the motion; shifts in metres of the body.
+    /// Deviation of each from the motion; shifts in metres of the body.
     pub fn deviations(&self) -> &[Deviation] {
         &self.deviations
     }
 
-    /// What each step did; the first pose has none.
+    /// Report of each step; the first pose has none.
     pub fn reports(&self) -> &[Report] {
         &self.reports
     }
@@ -116,7 +116,7 @@ impl Track {
         if fraction > 1.0 - 1e-6 {
             return self.deviations[index + 1];
         }
-        // A cubic would begin to bend one pose before a push: where nothing deviates, nothing is touched.
+        // A cubic would begin to bend one pose before a push: without a deviation the clip stays unchanged.
         if self.deviations[index..=index + 1].iter().all(|deviation| *deviation == Deviation::NONE) {
             return Deviation::NONE;
         }
@@ -143,7 +143,7 @@ impl Track {
     }
 }
 
-/// The pose that a motion from `first` to `second` would have come from.
+/// The pose before `first`, extrapolated from `first` and `second`.
 fn backward(first: &Pose, second: &Pose) -> Pose {
     let locals = Node::ALL.map(|node| {
         let (a, b) = (first.local(node), second.local(node));

@@ -1,8 +1,8 @@
 //! Inverse dynamics and mass matrix of the upper body on prescribed hips.
 //!
-//! The legs cannot touch the torques above once the hips' motion is given, so only eleven bodies and the base take part.
-//! Joints are spherical: a joint's rate is the full angular velocity of the child relative to the parent, in the child's
-//! frame, of which the 24 coordinates are components; the rest is prescribed by the input.
+//! The legs do not affect the torques above once the hips' motion is given, so only eleven bodies and the base take
+//! part. Joints are spherical: a joint's rate is the full angular velocity of the child relative to the parent, in the
+//! child's frame, of which the 24 coordinates are components; the rest is prescribed by the input.
 
 use crate::force::PointForce;
 use crate::settings::GRAVITY;
@@ -32,7 +32,7 @@ pub(crate) const ABOVE: [Node; UPPER_NODES - 1] = {
     above
 };
 
-/// How the hips move: prescribed.
+/// The prescribed motion of the hips.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HipsMotion {
     /// `world_from_hips`.
@@ -45,7 +45,7 @@ pub(crate) struct HipsMotion {
     pub acceleration: DVec3,
 }
 
-/// How the joints turn in one frame, by [`Node::index`]; the hips' entries are not read.
+/// Motion of the joints in one frame, by [`Node::index`]; the hips' entries are not read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JointMotion<'a> {
     /// `parent_from_node`.
@@ -68,7 +68,7 @@ pub(crate) struct UpperBody {
 
 impl UpperBody {
     pub(crate) fn of(body: &Body) -> UpperBody {
-        // Measures that make no sense weigh nothing, so that no body panics.
+        // Bodies with invalid measures get no mass, so that no body panics.
         let finite = |vector: DVec3| if vector.is_finite() { vector } else { DVec3::ZERO };
         let links = ABOVE.map(|node| {
             let link = body.link(node);
@@ -102,7 +102,7 @@ impl UpperBody {
         }
     }
 
-    /// Joint torques \[N m\] of the 24 coordinates (EQ1), gravity included, no other force.
+    /// Joint torques \[N m\] of the 24 coordinates (EQ1), gravity included, without other forces.
     pub(crate) fn torques(&mut self, hips: &HipsMotion, joints: JointMotion) -> Coordinates24 {
         self.set(joints);
         let base = base(hips);
