@@ -122,7 +122,7 @@ fn latency(actors: u16, hz: f64, secs: f64) -> Ran {
     }
     let mut all = Latency::default();
     for index in 0..actors {
-        all.join(performers.of(&format!("a{index}")).unwrap().1);
+        all.merge(performers.of(&format!("a{index}")).unwrap().1);
     }
     Ran {
         latency: all,

@@ -8,7 +8,7 @@ use crate::figure::is_drawable;
 use crate::lens::Lens;
 use crate::text::{Anchor, Type};
 
-/// An arrow that looks shorter than this \[units\] is drawn as a ring.
+/// An arrow whose projection is shorter than this \[units\] is drawn as a ring.
 const SHORT: f32 = 20.0;
 
 /// A force on a body. Its tip is drawn at the point of application; along the line of sight it becomes a ring, with a
@@ -17,9 +17,9 @@ const SHORT: f32 = 20.0;
 pub struct Arrow {
     /// Point of application \[m\], world.
     pub at: DVec3,
-    /// Force \[N\], world. Lengths compare within a filmstrip.
+    /// Force \[N\], world. Lengths are to one scale within a filmstrip.
     pub force_n: DVec3,
-    /// Its text; when empty, the newtons.
+    /// Its label; if empty, the newtons.
     pub label: String,
 }
 
@@ -40,7 +40,7 @@ impl Arrow {
         if self.label.is_empty() { format!("{:.0} N", self.force_n.length().min(1e9)) } else { self.label.clone() }
     }
 
-    /// Draws it; `taken` holds the boxes of labels already there (left, top, right, bottom).
+    /// Draws it; `taken` holds the boxes of existing labels (left, top, right, bottom).
     pub(crate) fn paint(
         &self,
         canvas: &mut Canvas,

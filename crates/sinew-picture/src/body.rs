@@ -1,4 +1,4 @@
-//! Solid bodies: every sample of a panel finds the capsule nearest to the viewer.
+//! Bodies with a depth buffer: every sample of a panel finds the capsule nearest to the viewer.
 //!
 //! Painter's sorting of whole capsules fails where limbs cross (a forearm lies partly before, partly behind the trunk),
 //! so depth is kept per sample. Edges come from jumps in depth, and lie on the farther side, so the nearer limb keeps its
@@ -38,9 +38,9 @@ pub(crate) struct Look {
     pub edge_px: f32,
     /// A jump in depth that makes an edge \[px\].
     pub edge_jump_px: f32,
-    /// What far limbs fade to.
+    /// The colour to which far limbs fade.
     pub haze: Colour,
-    /// What lies below it shows faintly; `None` shows all alike.
+    /// The floor; parts below it are drawn faintly. `None` draws everything alike.
     pub floor: Option<Floor>,
 }
 
@@ -62,7 +62,7 @@ pub(crate) struct Painter {
     depth: Vec<f32>,
     /// Index of the capsule, where `depth` is set.
     surface: Vec<u16>,
-    /// Least and greatest depth in each pixel.
+    /// Minimum and maximum depth in each pixel.
     range: Vec<(f32, f32)>,
     /// Samples across and down.
     width: usize,
@@ -97,7 +97,7 @@ impl Painter {
         }
     }
 
-    /// Enters a capsule into the depth buffer; the part of the buffer it may have touched.
+    /// Draws a capsule into the depth buffer; returns the part of the buffer that it may have changed.
     fn add(&mut self, index: u16, cone: &Cone) -> Option<Span> {
         // Samples lie at half steps; y runs up, rows run down.
         let clip = |low: f32, high: f32, size: usize| {
@@ -146,7 +146,7 @@ impl Painter {
         }
     }
 
-    /// Whether a pixel may hold an edge: whether anything clearly nearer lies within reach.
+    /// Whether a pixel may hold an edge: whether a clearly nearer sample lies within the width of an edge.
     fn may_hold_edge(&self, column: usize, row: usize, pixels: Span, look: &Look) -> bool {
         let columns = self.width / SAMPLES;
         let reach = look.edge_px.ceil() as usize;
@@ -167,7 +167,7 @@ impl Painter {
             return;
         }
         if !edges && low > EMPTY && self.is_one_surface(column, row) {
-            // Most pixels: the middle sample stands for all, since light changes slowly.
+            // Most pixels: the middle sample represents all, since light changes slowly.
             let (tint, opacity) =
                 self.sample(column * SAMPLES + SAMPLES / 2, row * SAMPLES + SAMPLES / 2, false, scene, &mut None);
             canvas.blend(column as i32, row as i32, tint, opacity);
@@ -258,10 +258,10 @@ impl Painter {
     }
 }
 
-/// What all pixels of one body share.
+/// Data shared by all pixels of one body.
 struct Scene<'a> {
     look: &'a Look,
-    /// What is drawn, in samples, and its tint.
+    /// The capsules in samples, and their tints.
     cones: Vec<(Cone, [f32; 3])>,
     /// Farthest and nearest centre \[samples\].
     far: f32,
@@ -279,7 +279,7 @@ impl<'a> Scene<'a> {
         let depths = solids.iter().flat_map(|solid| [solid.from.z * scale, solid.to.z * scale]);
         let (far, near) = depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
         let mut cones: Vec<(Cone, [f32; 3])> = solids.iter().take(usize::from(u16::MAX)).filter_map(cone).collect();
-        // The nearest first: most of what lies behind is then passed over without a look.
+        // The nearest first: most of what lies behind is then rejected by depth.
         cones.sort_by(|a, b| b.0.nearest().total_cmp(&a.0.nearest()));
         Scene { look, cones, far, near }
     }
@@ -303,7 +303,7 @@ impl<'a> Scene<'a> {
 }
 
 impl Floor {
-    /// Opacity of a sample by its height: what is under the floor shows faintly.
+    /// Opacity of a sample by its height: parts under the floor are faint.
     fn shows(self, row: usize, depth: f32) -> f32 {
         let height = self.rise.0 * -(row as f32 + 0.5) / SAMPLES as f32 + self.rise.1 * depth / SAMPLES as f32;
         if height < self.level { 0.35 } else { 1.0 }

@@ -1,10 +1,10 @@
-//! Where the viewer stands.
+//! The camera.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec3;
 
-/// A viewer infinitely far away (orthographic): equal lengths look equal wherever they are.
+/// An orthographic camera: equal lengths look equal at any distance.
 ///
 /// ```
 /// use glam::DVec3;
@@ -15,10 +15,9 @@ use glam::DVec3;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where the viewer stands around the vertical \[rad\]: 0 at +Z (in the face of a body that faces +Z), growing
-    /// towards +X (its left).
+    /// Azimuth of the viewer \[rad\]: 0 at +Z (in the face of a body that faces +Z), growing towards +X (its left).
     pub azimuth_rad: f64,
-    /// How far the viewer stands above the horizon \[rad\], clamped to ±π/2.
+    /// Elevation of the viewer above the horizon \[rad\], clamped to ±π/2.
     pub elevation_rad: f64,
 }
 

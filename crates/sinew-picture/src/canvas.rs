@@ -1,4 +1,4 @@
-//! The paper: a pixmap with the few strokes that pictures need.
+//! The canvas: a pixmap with the few strokes that pictures need.
 
 use tiny_skia::{
     FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, StrokeDash, Transform,
@@ -32,7 +32,7 @@ impl Canvas {
         self.pixmap.height() as f32
     }
 
-    /// Lays `colour` over one pixel, `cover` 0 to 1. Outside the paper nothing happens.
+    /// Blends `colour` over one pixel, `cover` 0 to 1. Outside the canvas nothing happens.
     pub fn blend(&mut self, x: i32, y: i32, colour: [f32; 3], cover: f32) {
         let (width, height) = (self.pixmap.width() as i32, self.pixmap.height() as i32);
         if x < 0 || y < 0 || x >= width || y >= height {
@@ -100,7 +100,7 @@ impl Canvas {
         self.pixmap.stroke_path(&path, &colour.paint(), &stroke, Transform::identity(), None);
     }
 
-    /// Lays another opaque picture on this one, its corner at whole pixels; what reaches over the edges is cut off.
+    /// Copies another opaque picture onto this one, its corner at whole pixels; clipped at the edges.
     pub fn paste(&mut self, left: usize, top: usize, picture: &Canvas) {
         let (width, height) = (self.pixmap.width() as usize, self.pixmap.height() as usize);
         let own = picture.pixmap.width() as usize;
@@ -118,7 +118,7 @@ impl Canvas {
 
 /// A path through the spots, or `None` when it has no extent or is not finite.
 fn path(spots: &[Spot], closed: bool) -> Option<tiny_skia::Path> {
-    // tiny-skia works in fixed point beyond this; nothing of ours lies so far outside the paper on purpose.
+    // tiny-skia works in fixed point beyond this; no shape of ours lies so far outside the canvas on purpose.
     const FAR_PX: f32 = 30_000.0;
     let mut builder = PathBuilder::new();
     for &(x, y) in spots {

@@ -1,4 +1,4 @@
-//! Laying out and painting a plot.
+//! Layout and painting of a plot.
 
 use crate::canvas::{Canvas, Spot};
 use crate::colour::{ARROW, HAIRLINE, INK, INK_SOFT, PAPER};
@@ -77,7 +77,7 @@ impl<'a> Chart<'a> {
         self.height.ceil()
     }
 
-    /// Where a value appears.
+    /// Position of a value in the picture.
     pub fn spot(&self, x: f64, y: f64) -> Spot {
         let [left, top, right, bottom] = self.field;
         let across = ((x - self.x.0) / (self.x.1 - self.x.0)).clamp(-50.0, 50.0) as f32;
@@ -193,8 +193,8 @@ impl<'a> Chart<'a> {
         }
     }
 
-    /// The unbroken stretches of a line, with no more points than its pixels can show: of those within half a pixel
-    /// column the first, lowest, highest and last are kept.
+    /// The unbroken stretches of a line, decimated to what its pixels can show: of those within half a pixel column the
+    /// first, lowest, highest and last are kept.
     fn runs(&self, series: &Series) -> Vec<Vec<Spot>> {
         let mut runs: Vec<Vec<Spot>> = Vec::new();
         for stretch in series.points.split(|&point| !is_plottable(point)) {
@@ -301,7 +301,7 @@ fn x_span(plot: &Plot) -> (f64, f64) {
     widened(low, high)
 }
 
-/// From the data and the limits, with zero where it is near, and some air.
+/// Range of the data and the limit lines, extended to zero if it is near, with a margin.
 fn y_span(plot: &Plot) -> (f64, f64) {
     let (low, high) = span(points(plot).map(|point| point.1).chain(limits(plot).map(|limit| limit.value)));
     let (mut low, mut high) = widened(low, high);

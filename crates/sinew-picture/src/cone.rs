@@ -1,7 +1,7 @@
-//! Where a ray along the view axis meets a tapered capsule.
+//! Intersection of a ray along the view axis with a tapered capsule.
 //!
-//! A tapered capsule is the hull of two balls: two caps and a cone between them, tangent to both. Each is a quadratic
-//! in depth.
+//! A tapered capsule is the convex hull of two balls: two caps and a cone between them, tangent to both. Each is a
+//! quadratic in depth.
 
 use glam::{Vec2, Vec3};
 
@@ -27,7 +27,7 @@ struct Side {
 }
 
 impl Cone {
-    /// `None` where there is nothing to draw.
+    /// `None` if there is nothing to draw.
     pub fn new(from: Vec3, to: Vec3, radius_from: f32, radius_to: f32) -> Option<Cone> {
         let finite = from.is_finite() && to.is_finite() && radius_from.is_finite() && radius_to.is_finite();
         if !finite || radius_from <= 0.0 || radius_to <= 0.0 {
@@ -55,7 +55,7 @@ impl Cone {
         (low, (self.from.y + self.radius_from).max(self.to.y + self.radius_to))
     }
 
-    /// Least and greatest x that it covers at this y: of its silhouette, the hull of two discs.
+    /// Minimum and maximum x that it covers at this y: of its silhouette, the hull of two discs.
     pub fn columns(&self, y: f32) -> Option<(f32, f32)> {
         let mut span: Option<(f32, f32)> = None;
         let mut hold = |low: f32, high: f32| {

@@ -1,15 +1,16 @@
-//! What can go wrong with a picture.
+//! Errors of drawing a picture.
 
-/// A picture that cannot be made. Odd shapes are not an error: they are skipped or clamped (see [`limits`](crate::limits)).
+/// Why a picture cannot be drawn. Invalid shapes are not an error: they are skipped or clamped (see
+/// [`limits`](crate::limits)).
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// No memory for the picture.
+    /// Out of memory.
     #[error("no room for a picture of {width_px} × {height_px} pixels; ask for a smaller width or fewer panels")]
     TooLarge {
-        /// Width asked for \[px\].
+        /// Requested width \[px\].
         width_px: u32,
-        /// Height asked for \[px\].
+        /// Requested height \[px\].
         height_px: u32,
     },
     /// The PNG encoder failed.

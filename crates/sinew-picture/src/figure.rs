@@ -1,4 +1,4 @@
-//! Bodies as pictures see them: tapered capsules.
+//! Bodies for pictures: tapered capsules.
 
 use glam::DVec3;
 
@@ -15,14 +15,14 @@ pub enum Shade {
     Left,
     /// The body's own right arm and leg: orange.
     Right,
-    /// Something that is no body: green.
+    /// An object that is not a body: green.
     Object,
     /// A colour of the caller's choice; its opacity is ignored.
     Custom(Colour),
 }
 
 impl Shade {
-    /// The tint in full light.
+    /// The tint under full light.
     pub fn colour(self) -> Colour {
         match self {
             Shade::Midline => Colour::hex(0xE4DBCF),
@@ -34,7 +34,7 @@ impl Shade {
     }
 }
 
-/// The hull of two balls: a limb segment. With equal ends it is a ball.
+/// The convex hull of two balls: a limb segment. With equal ends it is a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule {
     /// Centre of the first ball \[m\], world, Y up.
@@ -65,7 +65,7 @@ impl Capsule {
         Capsule::new(centre, centre, radius_m, shade)
     }
 
-    /// The capsule with its radii clamped, or `None` where it cannot be drawn.
+    /// The capsule with its radii clamped, or `None` if it cannot be drawn.
     fn drawable(&self) -> Option<Capsule> {
         let radius = |radius_m: f64| (radius_m.is_finite() && radius_m > 0.0).then(|| radius_m.min(MAX_RADIUS_M));
         (is_drawable(self.from) && is_drawable(self.to)).then_some(())?;
@@ -92,7 +92,7 @@ impl Figure {
         self.capsules.iter().take(MAX_CAPSULES).filter_map(Capsule::drawable)
     }
 
-    /// The middle of the box around the figure \[m\], world; `None` when there is nothing to draw.
+    /// The middle of the box around the figure \[m\], world; `None` if there is nothing to draw.
     pub fn middle(&self) -> Option<DVec3> {
         let ends = self.drawable().flat_map(|capsule| [capsule.from, capsule.to]);
         let (low, high) = ends.fold(None, |span: Option<(DVec3, DVec3)>, end| {

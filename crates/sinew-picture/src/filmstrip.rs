@@ -1,4 +1,4 @@
-//! Motion as a row of moments.
+//! Filmstrips: motion as a row of frames.
 
 use glam::DVec3;
 
@@ -9,31 +9,31 @@ use crate::{Camera, Error, Figure, Image, strip};
 /// One moment of a motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
-    /// When \[s\]; written under the panel. Not written when not finite.
+    /// Its time \[s\]; written under the panel if finite.
     pub time_secs: f64,
     /// The body.
     pub figure: Figure,
-    /// What it is compared with, as a rule the input motion: drawn pale, behind the body.
+    /// The ghost that it is compared with, as a rule the input motion: drawn pale, behind the body.
     pub ghost: Option<Figure>,
     /// Forces at this moment.
     pub arrows: Vec<Arrow>,
-    /// The point that the panel keeps in its middle \[m\], world, as a rule the pelvis; only its horizontal place counts.
-    /// `None` takes the middle of the figure, which sways with the arms.
+    /// The point that the panel keeps in its middle \[m\], world, as a rule the pelvis; only its horizontal position
+    /// counts. `None` takes the middle of the figure, which sways with the arms.
     pub follow: Option<DVec3>,
-    /// A few words under the time; may be empty.
+    /// A caption under the time; may be empty.
     pub caption: String,
 }
 
-/// How a filmstrip is laid out.
+/// Layout of a filmstrip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
     /// Width of the picture \[px\], [`MIN_WIDTH_PX`] to [`MAX_WIDTH_PX`]; text and lines scale with it. Default 1800.
     pub width_px: u32,
-    /// Most panels in a row; more wrap into rows of equal length. Default 8.
+    /// Maximum number of panels in a row; more wrap into rows of equal length. Default 8.
     pub columns: usize,
     /// Height of the floor \[m\], world. Default 0.
     pub floor_m: f64,
-    /// What the ghost is, for the legend. Default "input motion".
+    /// Name of the ghost, for the legend. Default "input motion".
     pub ghost_name: String,
 }
 
@@ -67,9 +67,9 @@ pub struct Filmstrip {
     pub subtitle: String,
     /// The moments, in the order of reading; at most [`MAX_PANELS`](crate::limits::MAX_PANELS) are drawn.
     pub panels: Vec<Panel>,
-    /// Where the viewer stands, the same for all panels.
+    /// The camera, the same for all panels.
     pub camera: Camera,
-    /// How it is laid out.
+    /// Its layout.
     pub style: Style,
 }
 
@@ -77,7 +77,7 @@ impl Filmstrip {
     /// Draws the picture.
     ///
     /// # Errors
-    /// When there is no memory for it.
+    /// Out of memory.
     pub fn draw(&self) -> Result<Image, Error> {
         let width = self.style.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
         Ok(Image(strip::Layout::new(self, width as f32).draw()?.pixmap))
@@ -86,12 +86,12 @@ impl Filmstrip {
     /// Draws the picture as the bytes of a PNG file.
     ///
     /// # Errors
-    /// When there is no memory for it, or the encoder fails.
+    /// Out of memory, or the encoder fails.
     pub fn to_png(&self) -> Result<Vec<u8>, Error> {
         self.draw()?.to_png()
     }
 
-    /// Where a point of the world appears in panel `index` of the drawn picture \[px\], x right, y down; `None` for a
+    /// Position of a point of the world in panel `index` of the drawn picture \[px\], x right, y down; `None` for a
     /// panel that is not drawn or a point that is not finite. The point may lie outside the panel.
     pub fn spot(&self, index: usize, point: DVec3) -> Option<(f32, f32)> {
         let width = self.style.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);

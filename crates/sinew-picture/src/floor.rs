@@ -1,6 +1,7 @@
-//! The floor: tiles that show how feet travel, shadows that show how high they are, and a ruler along its near edge.
+//! The floor: tiles that show the travel of feet, shadows that show their height, and a ruler along its near edge.
 //!
-//! Tiles and ruler are fixed to the world, half a metre apart: a foot that skates moves against them from panel to panel.
+//! Tiles and ruler are fixed to the world, half a metre apart: a sliding foot moves relative to them from panel to
+//! panel.
 
 use glam::{DVec3, Vec2};
 
@@ -12,9 +13,9 @@ use crate::{Colour, Figure};
 
 /// Side of a tile and distance of the ruler's ticks \[m\].
 pub(crate) const TILE_M: f64 = 0.5;
-/// How far the floor reaches from the followed point toward the viewer \[m\].
+/// Extent of the floor from the followed point toward the viewer \[m\].
 pub(crate) const NEAR_M: f64 = 0.45;
-/// How far it reaches away from the viewer \[m\]; it fades on the way.
+/// Extent away from the viewer \[m\]; it fades with distance.
 const FAR_M: f64 = 1.5;
 /// A camera lower than this (sine of its elevation) sees the floor as a line.
 const FLAT: f64 = 0.02;
@@ -88,14 +89,14 @@ fn smooth(share: f32) -> f32 {
     share * share * (3.0 - 2.0 * share)
 }
 
-/// A capsule as the floor sees it; positions from the followed point, x and z \[m\].
+/// A capsule projected to the floor; positions from the followed point, x and z \[m\].
 struct Shadow {
     from: Vec2,
     to: Vec2,
     /// Height of the underside over the floor \[m\] at each end.
     gap: (f32, f32),
     radius: (f32, f32),
-    /// Farther from the axis than this there is none of it \[m\].
+    /// Maximum distance of its surface from the axis \[m\].
     reach: f32,
 }
 
@@ -105,7 +106,7 @@ impl Shadow {
         let gap = |end: DVec3, radius_m: f64| (end.y - origin.y - radius_m).max(0.0) as f32;
         let gap = (gap(capsule.from, capsule.radius_from_m), gap(capsule.to, capsule.radius_to_m));
         let radius = (capsule.radius_from_m as f32, capsule.radius_to_m as f32);
-        // Higher than this its shadow is too faint and wide to see.
+        // Height above which its shadow is too faint and wide to see.
         let reach = radius.0.max(radius.1) * 1.6 + 0.10 + gap.0.max(gap.1) * 0.35;
         (gap.0.min(gap.1) < 1.3).then(|| Shadow { from: end(capsule.from), to: end(capsule.to), gap, radius, reach })
     }

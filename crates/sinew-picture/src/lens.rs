@@ -1,4 +1,4 @@
-//! From the world to one panel.
+//! Projection from the world to one panel.
 
 use glam::{DVec3, Vec3};
 
@@ -6,7 +6,7 @@ use crate::body::Solid;
 use crate::canvas::Spot;
 use crate::{Capsule, Figure, View};
 
-/// Where a panel sees the world: the point on the floor that it follows, and the scale.
+/// The view of a panel: the point on the floor that it follows, and the scale.
 #[derive(Clone, Copy)]
 pub(crate) struct Lens {
     pub view: View,
@@ -14,7 +14,7 @@ pub(crate) struct Lens {
     pub origin: DVec3,
     /// Pixels per metre.
     pub scale: f64,
-    /// Where the origin lies in the panel \[px\], y down.
+    /// Position of the origin in the panel \[px\], y down.
     pub at: Spot,
 }
 
@@ -25,7 +25,7 @@ impl Lens {
         Vec3::new(seen.x as f32 + self.at.0, seen.y as f32 - self.at.1, seen.z as f32)
     }
 
-    /// Where a point of the world appears in the panel \[px\], y down.
+    /// Position of a point of the world in the panel \[px\], y down.
     pub fn spot(&self, point: DVec3) -> Spot {
         let seen = self.panel_from_world(point);
         (seen.x, -seen.y)

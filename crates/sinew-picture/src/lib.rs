@@ -1,17 +1,17 @@
 //! Pictures of motion: filmstrips of bodies and plots over time, drawn without a GPU.
 //!
 //! A [`Filmstrip`] shows moments of a motion side by side: the body as shaded capsules, its left blue and its right
-//! orange, what it is compared with as a pale ghost behind it, forces as arrows, over a floor fixed to the world. A
-//! [`Plot`] shows values over time. A [`Sheet`] stacks both into one picture.
+//! orange, a reference motion as a pale ghost behind it, forces as arrows, over a floor fixed to the world. A [`Plot`]
+//! shows values over time. A [`Sheet`] stacks both into one picture.
 //!
 //! How to read a filmstrip: all panels have one scale and follow the body; the tiles and the ruler below stay with the
-//! world, half a metre apart. A foot that skates moves against them while it is down; a foot that floats parts from its
-//! shadow; what sinks into the floor turns pale.
+//! world, half a metre apart. A sliding foot moves relative to them during contact; a floating foot is apart from its
+//! shadow; parts below the floor are pale.
 //!
-//! Same input, same bytes. Nothing that is put in panics: shapes with coordinates that are not finite are skipped, and
-//! sizes are clamped to [`limits`].
+//! Same input, same bytes. No input panics: shapes with NaN or infinite coordinates are skipped, and sizes are clamped
+//! to [`limits`].
 //!
-//! This crate knows nothing of methods, formats or skeletons: plain shapes in metres come in, pixels go out.
+//! This crate does not know methods, formats or skeletons: plain shapes in metres come in, pixels go out.
 
 mod arrow;
 mod body;

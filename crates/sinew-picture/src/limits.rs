@@ -1,33 +1,33 @@
-//! Bounds that keep any input drawable: what is larger is clamped, never an error and never a panic.
+//! Limits that keep any input drawable: larger values are clamped, never an error and never a panic.
 
-/// Widest picture \[px\]; wider is clamped. A 4K screen is 3840.
+/// Maximum width of a picture \[px\]; clamped. A 4K screen is 3840.
 pub const MAX_WIDTH_PX: u32 = 4_000;
-/// Narrowest picture \[px\]; below it no caption fits.
+/// Minimum width of a picture \[px\]; below it no caption fits.
 pub const MIN_WIDTH_PX: u32 = 480;
-/// Tallest picture \[px\]; what would stand below it is cut off. With the width, at most 200 MB.
+/// Maximum height of a picture \[px\]; the rest is cut off. With the width, at most 200 MB.
 pub const MAX_HEIGHT_PX: u32 = 12_000;
-/// Most panels of one filmstrip; later ones are left out, and the subtitle says so.
+/// Maximum number of panels of one filmstrip; later ones are left out, and the subtitle says so.
 pub const MAX_PANELS: usize = 160;
-/// Most panels side by side.
+/// Maximum number of panels side by side.
 pub const MAX_COLUMNS: usize = 16;
-/// Most capsules of one figure; a full hand-and-face rig has about 200. Later ones are left out.
+/// Maximum number of capsules of one figure; a full hand-and-face rig has about 200. Later ones are left out.
 pub const MAX_CAPSULES: usize = 1_000;
-/// Most arrows of one panel; later ones are left out.
+/// Maximum number of arrows of one panel; later ones are left out.
 pub const MAX_ARROWS: usize = 64;
-/// Thickest capsule \[m\], radius.
+/// Maximum radius of a capsule \[m\].
 pub const MAX_RADIUS_M: f64 = 5.0;
-/// Widest and highest view of a panel \[m\]. Whatever lies farther from the followed point is cut off, so that one
+/// Maximum width and height of a panel's view \[m\]. Anything farther from the followed point is cut off, so that one
 /// stray limb does not shrink every figure to a dot.
 pub const MAX_VIEW_M: f64 = 8.0;
-/// Farthest coordinate from the world's origin \[m\]; beyond it a shape is skipped like one that is not finite.
+/// Maximum coordinate in the world \[m\]; a shape beyond it is skipped like one with NaN or infinite coordinates.
 pub const MAX_COORDINATE_M: f64 = 1e7;
-/// Most lines of one plot; later ones are left out, and the legend says so.
+/// Maximum number of lines of one plot; later ones are left out, and the legend says so.
 pub const MAX_SERIES: usize = 40;
-/// Most shaded intervals and most limit lines of one plot.
+/// Maximum number of shaded intervals, and of limit lines, of one plot.
 pub const MAX_MARKS: usize = 64;
-/// Largest magnitude in a plot; points beyond it are skipped like those that are not finite.
+/// Maximum magnitude in a plot; points beyond it are skipped like NaN or infinite ones.
 pub const MAX_PLOT_VALUE: f64 = 1e12;
-/// Longest text drawn \[characters\]; the rest becomes an ellipsis.
+/// Maximum length of a text \[characters\]; the rest becomes an ellipsis.
 pub const MAX_TEXT_CHARS: usize = 300;
-/// Most filmstrips and plots on one sheet; later ones are left out, and the footer says so.
+/// Maximum number of filmstrips and plots on one sheet; later ones are left out, and the footer says so.
 pub const MAX_PIECES: usize = 64;

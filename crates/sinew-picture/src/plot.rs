@@ -32,7 +32,7 @@ pub struct Mark {
     pub label: String,
 }
 
-/// A level that lines are held against, such as the 2° within which a body counts as recovered.
+/// A limit line to compare with, such as the 2° within which a body counts as recovered.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Limit {
     /// The level, in the unit of the y axis.
@@ -41,7 +41,7 @@ pub struct Limit {
     pub label: String,
 }
 
-/// Lines over time, with a legend that tells each one's largest value.
+/// Lines over time, with a legend that gives the maximum of each.
 ///
 /// Lines differ by colour and by dashes. It is drawn with the same strokes as the filmstrip: of the plot libraries
 /// `plotters` was tried, whose bitmap strokes are uneven when steep and jagged when thick, whose dashes are not in its
@@ -101,7 +101,7 @@ impl Plot {
     /// Draws the picture.
     ///
     /// # Errors
-    /// When there is no memory for it.
+    /// Out of memory.
     pub fn draw(&self) -> Result<Image, Error> {
         let width = self.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
         Ok(Image(chart::Chart::new(self, width as f32).draw()?.pixmap))
@@ -110,12 +110,12 @@ impl Plot {
     /// Draws the picture as the bytes of a PNG file.
     ///
     /// # Errors
-    /// When there is no memory for it, or the encoder fails.
+    /// Out of memory, or the encoder fails.
     pub fn to_png(&self) -> Result<Vec<u8>, Error> {
         self.draw()?.to_png()
     }
 
-    /// Where a value appears in the drawn picture \[px\], x right, y down.
+    /// Position of a value in the drawn picture \[px\], x right, y down.
     pub fn spot(&self, x: f64, y: f64) -> (f32, f32) {
         let width = self.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
         chart::Chart::new(self, width as f32).spot(x, y)

@@ -96,10 +96,10 @@ impl<'a> Laid<'a> {
 }
 
 impl Sheet {
-    /// Draws the picture. What would lie below [`MAX_HEIGHT_PX`] is cut off.
+    /// Draws the picture. Anything below [`MAX_HEIGHT_PX`] is cut off.
     ///
     /// # Errors
-    /// When there is no memory for it.
+    /// Out of memory.
     pub fn draw(&self) -> Result<Image, Error> {
         let width = self.width_px.clamp(MIN_WIDTH_PX, MAX_WIDTH_PX);
         let unit = width as f32 / 1800.0;
@@ -140,7 +140,7 @@ impl Sheet {
     /// Draws the picture as the bytes of a PNG file.
     ///
     /// # Errors
-    /// When there is no memory for it, or the encoder fails.
+    /// Out of memory, or the encoder fails.
     pub fn to_png(&self) -> Result<Vec<u8>, Error> {
         self.draw()?.to_png()
     }

@@ -1,4 +1,4 @@
-//! Laying out and painting a filmstrip.
+//! Layout and painting of a filmstrip.
 
 use glam::DVec3;
 
@@ -35,9 +35,9 @@ pub(crate) struct Layout<'a> {
     row_height: f32,
     /// Pixels per metre.
     scale: f64,
-    /// Where the followed point on the floor lies in a panel.
+    /// Position of the followed point on the floor in a panel.
     at: Spot,
-    /// Where the ruler begins in a panel.
+    /// Top of the ruler in a panel.
     ruler: f32,
     strongest_n: f64,
 }
@@ -110,7 +110,7 @@ impl<'a> Layout<'a> {
         Lens { view: self.view, origin, scale: self.scale, at: self.at }
     }
 
-    /// Where a point of the world appears.
+    /// Position of a point of the world.
     pub fn spot(&self, index: usize, point: DVec3) -> Option<Spot> {
         let panel = self.panels().get(index).filter(|_| is_drawable(point))?;
         let (spot, corner) = (self.lens(panel).spot(point), self.corner(index));
@@ -163,7 +163,7 @@ impl<'a> Layout<'a> {
     }
 
     fn body_look(&self) -> Look {
-        // A centimetre below the floor is touching: soles are soft and radii are guesses.
+        // A centimetre below the floor counts as contact: soles are soft and radii are estimates.
         let level = -(0.01 * self.scale) as f32 - self.at.1 * self.view.up.y as f32;
         Look {
             single: None,
@@ -201,7 +201,7 @@ impl<'a> Layout<'a> {
         canvas.text((left + 1.0, top + 40.0 * unit), Anchor::Start, font, &caption);
     }
 
-    /// Swatches for what the picture holds, at the upper right; returns the left end of them.
+    /// The legend at the upper right; returns its left end.
     fn paint_legend(&self, canvas: &mut Canvas) -> f32 {
         let unit = self.unit;
         let font = Type::plain(14.0 * unit, INK_SOFT);
@@ -240,7 +240,7 @@ pub(crate) fn head_height(title: &str, subtitle: &str, legend: bool, unit: f32) 
     ((16.0 + title + subtitle + 8.0) * unit).ceil()
 }
 
-/// Writes title and subtitle, clear of what begins at `right`.
+/// Writes title and subtitle, left of `right`.
 pub(crate) fn paint_head(canvas: &mut Canvas, title: &str, subtitle: &str, unit: f32, right: f32) {
     let left = MARGIN * unit;
     let mut y = 16.0 * unit;
@@ -277,7 +277,7 @@ fn followed(panel: &Panel) -> DVec3 {
         .unwrap_or_default()
 }
 
-/// How far anything reaches from the followed point, over all panels \[m\].
+/// Extent of all figures from the followed point, over all panels \[m\].
 struct Reach {
     side_m: f64,
     above_m: f64,
@@ -304,7 +304,7 @@ impl Reach {
                 hold(arrow.at, 0.02, MAX_VIEW_M / 2.0);
                 hold(arrow.tail(strongest_n), 0.06, MAX_VIEW_M / 2.0);
             }
-            // A ghost that has walked away may leave the panel: the body must stay large.
+            // A ghost far away may leave the panel, so that the body stays large.
             for capsule in panel.ghost.iter().flat_map(|ghost| ghost.drawable()) {
                 hold(capsule.from, capsule.radius_from_m, 0.85);
                 hold(capsule.to, capsule.radius_to_m, 0.85);

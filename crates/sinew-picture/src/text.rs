@@ -11,7 +11,7 @@ use crate::limits::MAX_TEXT_CHARS;
 static REGULAR: &[u8] = include_bytes!("../assets/Inter-Regular-subset.otf");
 static STRONG: &[u8] = include_bytes!("../assets/Inter-SemiBold-subset.otf");
 
-/// Where a text's anchor lies along it.
+/// Alignment of a text at its anchor.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Anchor {
     Start,
@@ -19,7 +19,7 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// How a text looks.
+/// Style of a text.
 #[derive(Clone, Copy)]
 pub(crate) struct Type {
     /// Height of the em square \[px\].
@@ -72,7 +72,7 @@ impl Type {
         PxScale::from(em_px * font.height_unscaled() / font.units_per_em().unwrap_or(1_000.0))
     }
 
-    /// The text, cut with an ellipsis so that it is at most this wide \[px\].
+    /// The text, truncated with an ellipsis to a maximum width \[px\].
     pub fn fit(self, text: &str, width: f32) -> String {
         let short = text.chars().count() <= MAX_TEXT_CHARS;
         if short && self.width(text) <= width {
@@ -99,7 +99,7 @@ impl Canvas {
         self.write(spot, anchor, font, text, true)
     }
 
-    /// Writes a text with a pale rim, so that it reads on anything.
+    /// Writes a text with a pale rim, so that it is legible on any background.
     pub fn text_with_rim(&mut self, spot: Spot, anchor: Anchor, font: Type, rim: Colour, text: &str) -> f32 {
         let rim = Type { colour: rim, ..font };
         let reach = (font.em_px / 10.0).max(1.0);

@@ -54,7 +54,7 @@ impl Ticks {
     }
 }
 
-/// A span that has some width, whatever comes in.
+/// A span of positive width for any input.
 pub(crate) fn widened(low: f64, high: f64) -> (f64, f64) {
     if !(low.is_finite() && high.is_finite()) || low > high {
         return (0.0, 1.0);

@@ -84,8 +84,13 @@ impl SessionObserver {
     /// An observer for a stage and its queue.
     pub fn new(queue: StageQueue, stage: &Stage) -> SessionObserver {
         let steps_per_frame = u64::from(stage.scene().stage.steps_per_frame()).max(1);
-        let mut session_observer =
-            SessionObserver { queue, steps_per_frame, has_applied: false, hashes: BTreeMap::new(), applied: Vec::new() };
+        let mut session_observer = SessionObserver {
+            queue,
+            steps_per_frame,
+            has_applied: false,
+            hashes: BTreeMap::new(),
+            applied: Vec::new(),
+        };
         session_observer.after_step(stage);
         session_observer
     }

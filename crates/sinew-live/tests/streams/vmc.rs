@@ -143,7 +143,7 @@ fn a_performer_who_is_not_seen_and_numbers_that_are_none_are_marked() {
     let unseen = VmcFrame { is_seen: false, ..VmcFrame::of(&sample, &body) };
     assert_eq!(read(&mut VmcReader::new(), &unseen.to_bytes())[0].status, SampleStatus::Untracked);
     let mut none = VmcFrame::of(&sample, &body);
-    none.turns[3].y = f64::INFINITY;
+    none.rotations[3].y = f64::INFINITY;
     assert_eq!(read(&mut VmcReader::new(), &none.to_bytes())[0].status, SampleStatus::NonFinite);
     // A message that is too short has no numbers where they should be.
     let short = bundle(vec![message("/VMC/Ext/Bone/Pos", floats("Hips", &[0.0, 1.0])), time(0.0)]);
