@@ -25,8 +25,8 @@ pub(crate) struct Serve {
     /// Where to write the tokens too: the actors' in the first line, the operator's in the second. Only you can read the file.
     #[arg(long, value_name = "F")]
     token_file: Option<PathBuf>,
-    /// Clients that may be in at a time.
-    #[arg(long, value_name = "N", default_value_t = 32)]
+    /// Maximum number of connected clients.
+    #[arg(long, alias = "most-clients", value_name = "N", default_value_t = 32)]
     max_clients: usize,
     /// How long to run [s]; until interrupted when left out.
     #[arg(long = "for", value_name = "SECONDS")]
