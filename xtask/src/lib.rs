@@ -2,7 +2,9 @@
 
 pub mod check;
 pub mod command;
+pub mod frame_map;
 pub mod golden;
+pub mod imports;
 pub mod page;
 pub mod readme;
 pub mod repository;

@@ -1,11 +1,17 @@
 //! What the project's pages say, as far as a machine can hold them to it.
 
-/// The first cell of every row of the table under a heading (`## Rooms`), without its backticks.
-pub fn first_cells(page: &str, heading: &str) -> Vec<String> {
+/// The cells of every row of the table under a heading (`## Rooms`).
+pub fn rows(page: &str, heading: &str) -> Vec<Vec<String>> {
     let section = page.lines().skip_while(|line| *line != heading).skip(1).take_while(|line| !line.starts_with("## "));
     let rows = section.filter(|line| line.starts_with('|')).skip(2);
-    let first = |row: &str| row.split('|').nth(1).map(|cell| cell.trim().trim_matches('`').to_owned());
-    rows.filter_map(first).collect()
+    let cells = |row: &str| row.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect();
+    rows.map(cells).collect()
+}
+
+/// The first cell of every row of the table under a heading, without its backticks.
+pub fn first_cells(page: &str, heading: &str) -> Vec<String> {
+    let firsts = rows(page, heading).into_iter().filter_map(|row| row.into_iter().next());
+    firsts.map(|cell| cell.trim_matches('`').to_owned()).collect()
 }
 
 /// Targets of the page's links, without what follows a `#`; links to elsewhere and to places on the page itself left out.

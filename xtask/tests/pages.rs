@@ -70,9 +70,8 @@ fn every_crate_depends_on_earlier_rooms_only() {
 #[test]
 fn every_path_that_the_pages_name_exists() {
     let folders: Vec<String> = folders("").into_iter().collect();
-    for name in PAGES {
-        let text = read(name);
-        for path in page::named_paths(&text, &folders).into_iter().chain(page::relative_links(&text)) {
+    for name in PAGES.into_iter().chain(["docs/glossary.md"]) {
+        for path in page::named_paths(&read(name), &folders) {
             assert!(repository::root().join(&path).exists(), "{name} names {path}, which is not there");
         }
     }
@@ -132,4 +131,12 @@ fn the_check_that_ci_runs_is_the_readmes() {
     let script = read(".ci/run");
     let last = script.lines().last().unwrap_or_default();
     assert!(commands.iter().any(|command| command == last), "README.md does not say {last:?}, which .ci/run runs");
+}
+
+#[test]
+fn the_picture_of_a_frame_is_the_one_that_xtask_draws() {
+    assert!(
+        read("docs/frame.svg") == xtask::frame_map::svg(),
+        "docs/frame.svg is out of date; run cargo xtask frame-map"
+    );
 }
