@@ -7,6 +7,7 @@
 
 use crate::{Clip, Transform};
 use glam::{DQuat, DVec3};
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer};
 
 /// Cut-off that keeps human motion and drops capture noise \[Hz\].
 pub const DEFAULT_CUTOFF_HZ: f64 = 6.0;
@@ -129,6 +130,24 @@ pub struct LowPassStream<const N: usize> {
     origin: Option<[f64; N]>,
     state: [[f64; 2]; N],
     last: [f64; N],
+}
+
+/// All but the filter itself.
+impl<const N: usize> Snapshot for LowPassStream<N> {
+    fn save(&self, to: &mut Writer) {
+        self.origin.is_some().save(to);
+        self.origin.unwrap_or([0.0; N]).save(to);
+        self.state.save(to);
+        self.last.save(to);
+    }
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        let (mut has_origin, mut origin) = (false, [0.0; N]);
+        has_origin.restore(from)?;
+        origin.restore(from)?;
+        self.origin = has_origin.then_some(origin);
+        self.state.restore(from)?;
+        self.last.restore(from)
+    }
 }
 
 impl<const N: usize> LowPassStream<N> {

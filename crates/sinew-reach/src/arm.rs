@@ -5,6 +5,7 @@ use crate::hand_path::HandPath;
 use crate::minimum_jerk::MinimumJerk;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Pose, exp, log};
+use sinew_snapshot::snapshot;
 
 /// An arm over time.
 #[derive(Clone, Debug)]
@@ -32,6 +33,9 @@ pub(crate) struct Carried {
     /// The rotation after release.
     home: DQuat,
 }
+
+snapshot!(Arm { share, target, bow, swivel, girdle, carried, by_joints, end, printed });
+snapshot!(Carried { base, passes, home });
 
 /// Time for which a joint that is taken over while it moves keeps its speed, total, and the time in which it comes to
 /// rest \[s\].

@@ -3,9 +3,10 @@
 use crate::minimum_jerk::{MinimumJerk, arc, eased};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Sole};
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer, snapshot};
 
 /// A foot flat on the floor.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
     /// The ankle \[m\].
     pub ankle: DVec3,
@@ -14,7 +15,7 @@ pub struct Placement {
 }
 
 /// A stride: one foot from a placement to the next.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stride {
     /// 0 left, 1 right.
     pub side: usize,
@@ -29,7 +30,7 @@ pub struct Stride {
 }
 
 /// Support of two planted feet: a disc for the centre of mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Support {
     /// Its middle, on the floor \[m\].
     pub centre: DVec3,
@@ -61,6 +62,33 @@ pub struct Feet {
     linear: bool,
     /// Strides that belong to the start and are not dropped on a new goal.
     closing: Option<Stride>,
+}
+
+snapshot!(Placement { ankle, yaw_rad });
+snapshot!(Stride { side, to, start_secs, for_secs, lift_m });
+snapshot!(Support { centre, rest, radius_m, yaw_rad });
+
+/// What feet carry is found anew from where they stand.
+impl Snapshot for Feet {
+    fn save(&self, to: &mut Writer) {
+        self.planted.save(to);
+        self.strides.save(to);
+        self.rests.save(to);
+        self.closing.save(to);
+        self.linear.save(to);
+    }
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        self.planted.restore(from)?;
+        self.strides.restore(from)?;
+        self.rests.restore(from)?;
+        self.closing.restore(from)?;
+        self.linear.restore(from)?;
+        if self.strides.len() > MAX_STRIDES || self.strides.iter().any(|stride| stride.side > 1) {
+            return Err(SnapshotError::invalid("stride"));
+        }
+        self.stand_anew();
+        Ok(())
+    }
 }
 
 impl Feet {

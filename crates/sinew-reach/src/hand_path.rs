@@ -21,7 +21,7 @@ pub const PRINTED_RATIO: f64 = 0.8;
 /// assert!((path.total_secs - 2.0 * 0.8 / (0.2 * 1.8)).abs() < 1e-12); // EQ4
 /// assert!((path.at(path.total_secs) - DVec3::X * 0.8).length() < 1e-12);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HandPath {
     /// p_s \[m\].
     pub from: DVec3,
@@ -36,6 +36,8 @@ pub struct HandPath {
     /// t_t, EQ4 \[s\].
     pub total_secs: f64,
 }
+
+sinew_snapshot::snapshot!(HandPath { from, way, velocity, deceleration, ratio, total_secs });
 
 impl HandPath {
     /// The path from one point to another \[m\] with a start speed \[m/s\] and the ratio r_s, 0 to 1 (excluded).

@@ -4,13 +4,16 @@ use crate::{Rng, Values};
 use glam::DVec3;
 
 /// The kind of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StepKind {
     /// One foot goes forward, the other stays.
+    #[default]
     Half,
     /// The other foot follows.
     Full,
 }
+
+sinew_snapshot::snapshot!(enum StepKind { 0: Half, 1: Full });
 
 impl StepKind {
     /// `half` or `full`.

@@ -34,6 +34,7 @@ mod obstacle;
 mod outcome;
 mod plan;
 mod reacher;
+mod reacher_snapshot;
 mod rng;
 mod route;
 mod schedule;

@@ -1,5 +1,6 @@
 //! A minimum-jerk trajectory that can be redirected at any time without a jump in value, velocity or acceleration.
 
+use sinew_snapshot::{Snapshot, snapshot};
 use std::ops::{Add, Mul, Sub};
 
 /// Types that can be interpolated: numbers and vectors.
@@ -34,6 +35,8 @@ pub struct MinimumJerk<T> {
     /// Whether its time is warped: fast first, then slow.
     early: bool,
 }
+
+snapshot!([T: Snapshot] MinimumJerk<T> { from_secs, for_secs, factors, goal, early });
 
 impl<T: Value> MinimumJerk<T> {
     /// A constant value.

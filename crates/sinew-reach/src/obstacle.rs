@@ -25,6 +25,15 @@ pub enum Obstacle {
     },
 }
 
+sinew_snapshot::snapshot!(enum Obstacle { 0: Capsule { from, to, radius_m }, 1: Box { centre, turn, half_m } });
+
+/// A ball without a size at the world's origin.
+impl Default for Obstacle {
+    fn default() -> Obstacle {
+        Obstacle::Capsule { from: DVec3::ZERO, to: DVec3::ZERO, radius_m: 0.0 }
+    }
+}
+
 impl Obstacle {
     /// Signed distance of a point \[m\]; negative inside.
     ///

@@ -3,9 +3,10 @@
 use crate::walk::Step;
 
 /// Why a target is not reached.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reason {
     /// Higher than the stretched body reaches.
+    #[default]
     TooHigh,
     /// Lower than the bent body reaches, such as under the floor.
     TooLow,
@@ -59,6 +60,11 @@ pub struct Outcome {
     /// Squat: how far the hips are lowered \[m\].
     pub squat_m: f64,
 }
+
+sinew_snapshot::snapshot!(enum Reason {
+    0: TooHigh, 1: TooLow, 2: TooFar, 3: TooNear, 4: TooFarApart, 5: Blocked, 6: OneStep, 7: Released,
+});
+sinew_snapshot::snapshot!(Outcome { reason, gap_m, arrives_secs, hands, steps, twist_rad, swing_rad, squat_m });
 
 impl Outcome {
     /// Whether the hand arrives.

@@ -1,8 +1,19 @@
 //! Random numbers, reproducible by seed.
 
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer};
+
 /// A generator of random numbers: SplitMix64 (Steele, Lea, Flood 2014).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rng(u64);
+
+impl Snapshot for Rng {
+    fn save(&self, to: &mut Writer) {
+        self.0.save(to);
+    }
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        self.0.restore(from)
+    }
+}
 
 impl Rng {
     /// A generator with a seed.

@@ -26,6 +26,17 @@ pub struct Style {
     pub seed: u64,
 }
 
+sinew_snapshot::snapshot!(Style {
+    flexibility,
+    speed_m_s,
+    time_secs,
+    overlap_step,
+    overlap_twist,
+    head_speed_rad_s,
+    print,
+    seed,
+});
+
 impl Default for Style {
     fn default() -> Style {
         Style {

@@ -18,7 +18,7 @@ pub(crate) struct Stance {
 }
 
 /// A step for the report.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Step {
     /// Which foot goes first: 0 left, 1 right.
     pub side: usize,
@@ -29,6 +29,8 @@ pub struct Step {
     /// Lift-off time \[s\].
     pub start_secs: f64,
 }
+
+sinew_snapshot::snapshot!(Step { side, kind, length_m, start_secs });
 
 /// Maximum turn of a stance between two strides \[rad\].
 const MAX_TURN_RAD: f64 = 0.6;

@@ -8,6 +8,7 @@
 use crate::force::PointForce;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, LEGS, LegPose, Pose, exp, shift_within_reach, solve_leg};
+use sinew_snapshot::snapshot;
 
 /// Frequency of the return \[rad/s\].
 const RETURN: f64 = 5.0;
@@ -39,6 +40,9 @@ pub(crate) struct HipsDeviation {
     /// Rotation vector \[rad\], world.
     pub turn: DVec3,
 }
+
+snapshot!(HipsState { shift, velocity, turn, spin });
+snapshot!(HipsDeviation { shift, turn });
 
 impl HipsState {
     /// Advances by a time step under forces that act on `pose`.

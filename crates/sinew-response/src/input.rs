@@ -4,6 +4,7 @@ use crate::torque::{Differences, steps, world_turn};
 use crate::upper_body::{Coordinates24, UpperBody, locals};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Pose, UPPER_NODES};
+use sinew_snapshot::snapshot;
 
 /// A wanted pose with the quantities derived from it and from the one before, each computed once.
 #[derive(Clone, Debug)]
@@ -18,6 +19,8 @@ pub(crate) struct Input {
     /// Each joint's turn from the frame before \[rad\], child's frame.
     pub step: [DVec3; UPPER_NODES],
 }
+
+snapshot!(Input { pose, local, hips_before, hips_turn, step });
 
 impl Input {
     /// A pose and the one before it.

@@ -13,6 +13,7 @@ use crate::settings::{CUTOFF_HZ, Settings};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Deviation, Node, Pose};
 use sinew_motion::{LowPass, LowPassStream};
+use sinew_snapshot::snapshot;
 
 /// A character that responds to pushes while it follows a live stream of poses: one [`advance`](Live::advance) a frame.
 ///
@@ -44,6 +45,8 @@ pub struct Live {
     joints: [LowPassStream<4>; Node::COUNT],
     last: Pose,
 }
+
+snapshot!(Live { response, hips, joints, last });
 
 impl Live {
     /// A stream that begins at rest in `first`.

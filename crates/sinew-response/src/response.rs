@@ -12,6 +12,7 @@ use crate::torque::{Differences, world_turn};
 use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Deviation, LEGS, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log};
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer, snapshot};
 
 /// A jump of the push's generalised force by more than this is a new perturbation \[N m for an 80 kg body\].
 const STARTLE_N_M: f64 = 1.0;
@@ -88,6 +89,43 @@ struct State {
     load_before: Coordinates24,
     /// Frames since the latest perturbation.
     since_push: Option<usize>,
+}
+
+snapshot!(Report { residual_n_m, reflex, limited });
+
+snapshot!(State {
+    input,
+    output,
+    hips_before,
+    hips_turn,
+    step,
+    deviation,
+    turned,
+    hips,
+    shown,
+    ground_before,
+    ground,
+    ground_acceleration,
+    torque_before,
+    load_before,
+    since_push,
+});
+
+/// What changes with the steps, and the limits as far as the input has widened them; the rest follows from body, basis and
+/// settings, which are those that it was made with.
+impl Snapshot for Response {
+    fn save(&self, to: &mut Writer) {
+        self.state.save(to);
+        self.report.save(to);
+        Node::ALL.iter().for_each(|node| self.body.link(*node).limit.save(to));
+    }
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        self.state.restore(from)?;
+        self.report.restore(from)?;
+        Node::ALL.iter().try_for_each(|node| self.body.link_mut(*node).limit.restore(from))?;
+        self.limits = Limits::of(&self.body);
+        Ok(())
+    }
 }
 
 impl State {

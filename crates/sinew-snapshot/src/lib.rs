@@ -62,6 +62,7 @@ pub trait Snapshot {
     ///
     /// # Errors
     /// When the bytes end too early, hold a value that the type cannot have, or were saved by something of another shape.
-    /// The value may then be partly restored: whoever restores a whole out of parts keeps the old state until all of it is in.
+    /// The value is then partly restored and must not be used before something else was restored into it: whoever restores a whole out
+    /// of parts keeps the old state until all of the new one is in.
     fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError>;
 }

@@ -14,6 +14,31 @@
 /// snapshot!(Filter { last } fixed { cutoff_hz });
 /// ```
 ///
+/// What only some values of the fields can be (an index into a list, a count below a maximum) is checked behind `valid`, so that
+/// no bytes can cause a panic later.
+///
+/// ```
+/// # use sinew_snapshot::{Reader, Snapshot, snapshot};
+/// struct Ring {
+///     values: [f64; 8],
+///     next: usize,
+/// }
+/// snapshot!(Ring { values, next } valid |ring| ring.next < ring.values.len());
+/// # let mut ring = Ring { values: [0.0; 8], next: 0 };
+/// assert!(ring.restore(&mut Reader::new(&[9; 72])).is_err());
+/// ```
+///
+/// Generic parameters stand in brackets before the type.
+///
+/// ```
+/// # use sinew_snapshot::{Snapshot, snapshot};
+/// struct Ramp<T> {
+///     from: T,
+///     to: T,
+/// }
+/// snapshot!([T: Snapshot] Ramp<T> { from, to });
+/// ```
+///
 /// An enum names all its variants, each with the number that stands for it in the bytes. Fields of a variant need a `Default`,
 /// because restoring may change the variant.
 ///
@@ -60,8 +85,12 @@ macro_rules! snapshot {
             }
         }
     };
-    ($name:ident $(< $life:lifetime >)? { $($field:ident),* $(,)? } $( fixed { $($fixed:ident),* $(,)? } )?) => {
-        impl $crate::Snapshot for $name $(< $life >)? {
+    (
+        [$($generics:tt)*] $type:ty { $($field:ident),* $(,)? }
+        $( fixed { $($fixed:ident),* $(,)? } )?
+        $( valid $valid:expr )?
+    ) => {
+        impl<$($generics)*> $crate::Snapshot for $type {
             fn save(&self, to: &mut $crate::Writer) {
                 let Self { $($field,)* $( $($fixed: _,)* )? } = self;
                 let _ = &to;
@@ -71,8 +100,21 @@ macro_rules! snapshot {
                 let Self { $($field,)* $( $($fixed: _,)* )? } = self;
                 let _ = &from;
                 $( $crate::Snapshot::restore($field, from)?; )*
+                $(
+                    let is_valid: fn(&Self) -> bool = $valid;
+                    if !is_valid(self) {
+                        return Err($crate::SnapshotError::invalid(stringify!($type)));
+                    }
+                )?
                 Ok(())
             }
         }
+    };
+    (
+        $type:ty { $($field:ident),* $(,)? }
+        $( fixed { $($fixed:ident),* $(,)? } )?
+        $( valid $valid:expr )?
+    ) => {
+        $crate::snapshot!([] $type { $($field),* } $( fixed { $($fixed),* } )? $( valid $valid )?);
     };
 }

@@ -9,6 +9,7 @@
 use super::Node;
 use super::rotation::{exp, swing_twist};
 use glam::{DQuat, DVec3};
+use sinew_snapshot::snapshot;
 
 /// Largest swing from the centre, by direction \[rad\], all positive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +34,9 @@ pub struct Limit {
     /// Smallest and largest twist about the bone \[rad\], from the centre.
     pub twist: (f64, f64),
 }
+
+snapshot!(Swing { x_negative, x_positive, z_negative, z_positive });
+snapshot!(Limit { centre, swing, twist });
 
 /// Rounding slack on the boundary \[relative\]: a joint widened to the input's pose must count as inside there.
 const BOUNDARY_SLACK: f64 = 1e-9;

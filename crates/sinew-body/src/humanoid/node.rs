@@ -6,12 +6,14 @@
 //! joint to the parent.
 
 use sinew_motion::Part;
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer};
 
 /// One of the 18 bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs, reason = "the names are the VRM parts")]
 #[repr(u8)]
 pub enum Node {
+    #[default]
     Hips,
     Chest,
     Neck,
@@ -30,6 +32,18 @@ pub enum Node {
     RightUpperLeg,
     RightLowerLeg,
     RightFoot,
+}
+
+/// Its [`Node::index`] in one byte.
+impl Snapshot for Node {
+    fn save(&self, to: &mut Writer) {
+        to.byte(*self as u8);
+    }
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        let index = usize::from(from.byte()?);
+        *self = *Node::ALL.get(index).ok_or(SnapshotError::invalid("node"))?;
+        Ok(())
+    }
 }
 
 /// A coordinate axis of a node's own anatomical frame: X to the left, Y up (along the bone), Z forward.

@@ -4,6 +4,7 @@ use super::node::LEGS;
 use super::rotation::exp;
 use super::{Body, Deviation, LegPose, Node, UPPER_NODES, solve_leg};
 use glam::{DQuat, DVec3};
+use sinew_snapshot::snapshot;
 
 /// The pose of the 18 bodies: the hips' position and all world orientations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,6 +13,15 @@ pub struct Pose {
     pub hips_position: DVec3,
     /// `world_from_node` of the anatomical frames, by [`Node::index`].
     pub world: [DQuat; Node::COUNT],
+}
+
+snapshot!(Pose { hips_position, world });
+
+/// [`Pose::STANDING`].
+impl Default for Pose {
+    fn default() -> Pose {
+        Pose::STANDING
+    }
 }
 
 impl Pose {

@@ -3,6 +3,7 @@
 use super::names::contact_between;
 use super::{Graph, Steering};
 use crate::pose::KeyPose;
+use sinew_snapshot::snapshot;
 use sinew_world::{Contact, Entity, Frame};
 use std::fmt;
 
@@ -14,6 +15,8 @@ pub struct GraphPlayer {
     steps: u64,
     step_secs: f64,
 }
+
+snapshot!(GraphPlayer { state, steps } fixed { step_secs } valid |player| player.steps <= u64::MAX / 2);
 
 /// A state left and another begun.
 #[derive(Clone, Debug, PartialEq)]

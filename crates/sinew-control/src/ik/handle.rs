@@ -3,10 +3,11 @@
 use crate::Target;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, LimbGoal, Node, exp, log, solve_limb};
+use sinew_snapshot::snapshot;
 use sinew_world::CharacterFrame;
 
 /// Where a limb is to reach.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
     /// The point, world \[m\].
     pub target: DVec3,
@@ -48,6 +49,10 @@ impl Handle {
 pub struct IkHandles {
     handles: [Handle; 4],
 }
+
+snapshot!(Reach { target, effector });
+snapshot!(Handle { reach, share, solution, miss_m });
+snapshot!(IkHandles { handles });
 
 impl Default for IkHandles {
     fn default() -> IkHandles {

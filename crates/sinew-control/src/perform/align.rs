@@ -3,11 +3,12 @@
 use super::{BodyProportions, PerformerSample};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_snapshot::snapshot;
 use sinew_world::hips_over_soles_m;
 
 /// How a performer is put on the stage: turned about the vertical, scaled by the length of the legs, moved so that at first the
 /// legs stand at the character's place. Rotations are taken as they are, lengths are the character's.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Alignment {
     turn: DQuat,
     scale: f64,
@@ -30,6 +31,8 @@ pub(super) struct Stand {
 
 /// Bounds of the scale between two bodies \[1\]: from a doll of 10 cm to a giant of 20 m.
 const SCALES: std::ops::RangeInclusive<f64> = 0.05..=12.0;
+
+snapshot!(Alignment { turn, scale, origin, place, performer_hips_to_legs, character_hips_to_legs });
 
 impl Alignment {
     /// From the first sample of a performance. Its lower sole comes to stand on the floor of the character's place.

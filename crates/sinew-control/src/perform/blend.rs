@@ -3,6 +3,7 @@
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
+use sinew_snapshot::snapshot;
 
 /// How fast a blend may move any part on top of the motion \[m/s\].
 const MAX_M_S: f64 = 0.8;
@@ -22,6 +23,8 @@ pub(super) struct Blend {
     gone_secs: f64,
     lasts_secs: f64,
 }
+
+snapshot!(Blend { hips, turns, gone_secs, lasts_secs });
 
 impl Blend {
     /// Nothing to blend.

@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
+use sinew_snapshot::snapshot;
 use std::collections::VecDeque;
 
 /// Poses that are kept: half a second at 120 Hz.
@@ -14,7 +15,7 @@ const DECAY_SECS: f64 = 0.05;
 const LONGEST_GAP_SECS: f64 = 0.1;
 
 /// One pose of the stream.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Entry {
     pub time_secs: f64,
     pub pose: Pose,
@@ -25,6 +26,9 @@ pub(super) struct Entry {
 pub(super) struct Buffer {
     entries: VecDeque<Entry>,
 }
+
+snapshot!(Entry { time_secs, pose });
+snapshot!(Buffer { entries } valid |buffer| buffer.entries.len() <= MOST);
 
 impl Buffer {
     pub fn new() -> Buffer {

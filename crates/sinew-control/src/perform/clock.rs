@@ -3,6 +3,8 @@
 //! The smallest difference between arrival and time stamp in the last seconds is the offset of the clocks plus the shortest way.
 //! Because it is forgotten after that time, a clock that runs fast or slow is followed: 100 ppm make 0.4 ms in four seconds.
 
+use sinew_snapshot::snapshot;
+
 /// Buckets of the sliding minimum.
 const BUCKETS: usize = 16;
 
@@ -35,6 +37,10 @@ pub(super) struct Clock {
     next: usize,
     interval_secs: f64,
 }
+
+snapshot!(Clock { minima, bucket, begun, jitter_secs, late_in_a_row, intervals, known, next, interval_secs }
+    fixed { most_jitter_secs }
+    valid |clock| clock.late_in_a_row < MAX_LATE && clock.known <= INTERVALS && clock.next < INTERVALS && clock.bucket < u64::MAX);
 
 impl Clock {
     pub fn new(most_jitter_secs: f64) -> Clock {

@@ -1,6 +1,7 @@
 //! What came of a performer's samples.
 
 use serde::Serialize;
+use sinew_snapshot::snapshot;
 
 /// Samples by their fate. All but [`lost`](PerformCounters::lost) are exact; every received sample is counted in exactly one of
 /// `used`, `late`, `duplicates`, `stale`, `untracked`, `non_finite`, `non_unit` and `jumps`.
@@ -31,6 +32,10 @@ pub struct PerformCounters {
     /// Whether `lost` was estimated from time stamps, because the sender does not number its samples.
     pub lost_is_estimate: bool,
 }
+
+snapshot!(PerformCounters {
+    received, used, reordered, late, duplicates, stale, untracked, non_finite, non_unit, jumps, lost, lost_is_estimate,
+} valid |counters| counters.received.max(counters.rejected()).max(counters.lost) <= u64::MAX / 2);
 
 impl PerformCounters {
     /// Samples thrown out for what they are: duplicates, stale ones and bad ones.

@@ -1,5 +1,7 @@
 //! Which numbers of a numbered stream have come.
 
+use sinew_snapshot::snapshot;
+
 /// The last so many numbers, and how many there were in all.
 #[derive(Clone, Debug)]
 pub(super) struct Numbers {
@@ -10,7 +12,7 @@ pub(super) struct Numbers {
     lost_before: u64,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Span {
     lowest: u64,
     highest: u64,
@@ -21,6 +23,10 @@ const WORDS: usize = 32;
 
 /// Numbers that are remembered one by one.
 const WINDOW: u64 = 64 * WORDS as u64;
+
+snapshot!(Span { lowest, highest, distinct }
+    valid |span| span.lowest <= span.highest && span.distinct <= (span.highest - span.lowest).saturating_add(1));
+snapshot!(Numbers { seen, span, lost_before } valid |numbers| numbers.lost_before <= u64::MAX / 2);
 
 impl Numbers {
     pub fn new() -> Numbers {

@@ -3,6 +3,7 @@
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
+use sinew_snapshot::snapshot;
 
 /// Cut-off gained with speed \[Hz per m/s or rad/s\]: at a walk's 1.3 m/s the hips lag by 5 ms.
 const BETA: f64 = 20.0;
@@ -17,6 +18,8 @@ pub(super) struct OneEuro {
     /// Low-passed velocity of the hips and angular velocities of the joints.
     speeds: [DVec3; 1 + Node::COUNT],
 }
+
+snapshot!(OneEuro { speeds } fixed { smoothing_hz });
 
 impl OneEuro {
     pub fn new(smoothing_hz: f64) -> OneEuro {

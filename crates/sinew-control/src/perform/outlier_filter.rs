@@ -4,6 +4,7 @@ use super::buffer::{Buffer, distance};
 use super::numbers::Numbers;
 use super::{PerformCounters, PerformerSample, SampleStatus};
 use sinew_body::humanoid::Pose;
+use sinew_snapshot::snapshot;
 
 /// Beyond this a sample is of another time \[s\].
 const STALE_SECS: f64 = 1.0;
@@ -60,6 +61,9 @@ pub(super) struct Around<'a> {
     pub pose: &'a Pose,
     pub scale: f64,
 }
+
+snapshot!(OutlierFilter { numbers, counters, odd, odd_in_a_row, newest_arrival_secs }
+    valid |filter| filter.odd_in_a_row <= u32::MAX / 2);
 
 impl OutlierFilter {
     pub fn new() -> OutlierFilter {

@@ -5,6 +5,7 @@ use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_motion::Part;
+use sinew_snapshot::snapshot;
 
 /// What a capture system says of a performer at one instant, in our axes: right-handed, Y up, +Z forward, +X to the left.
 ///
@@ -54,7 +55,7 @@ pub enum SampleStatus {
 }
 
 /// The lengths of a performer that place a character's hips.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyProportions {
     /// From the hips to the middle between the hip joints, in the hips' frame \[µm\].
@@ -62,6 +63,8 @@ pub struct BodyProportions {
     /// Upper and lower leg together \[µm\].
     pub leg_um: i32,
 }
+
+snapshot!(BodyProportions { hips_to_legs_um, leg_um });
 
 /// Millionths in one.
 const E6: f64 = 1e6;

@@ -10,6 +10,7 @@ use super::{BodyProportions, LiveSettings, PerformCounters, PerformerSample};
 use crate::Target;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp, log};
+use sinew_snapshot::snapshot;
 use sinew_world::hips_over_soles_m;
 
 /// What the performer is to the character at present.
@@ -81,6 +82,13 @@ pub struct LiveSource {
     until_secs: f64,
     gain: f64,
 }
+
+snapshot!(enum Presence { 0: Waiting, 1: Performing, 2: Holding, 3: Relaxed });
+
+snapshot!(LiveSource {
+    outlier_filter, clock, build, alignment, aligned, buffer, playhead, is_ahead, is_mended, presence, heard_secs, idle, blend,
+    filter, blended, shown, before, step_secs, until_secs, gain,
+} fixed { stand, settings });
 
 /// Silence after which a stream counts as lost \[s\]: what runs on beyond its last sample has come to rest by then.
 const SILENT_SECS: f64 = 0.25;

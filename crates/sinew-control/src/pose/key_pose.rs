@@ -4,6 +4,7 @@ use super::{FullJointSpec, JointSpec, PartName, PoseSpec};
 use crate::Target;
 use glam::{DMat3, DQuat, DVec3};
 use sinew_body::humanoid::{Node, exp, log};
+use sinew_snapshot::snapshot;
 use std::collections::BTreeMap;
 
 /// A wanted turn of every joint but the root's, with gains.
@@ -20,6 +21,8 @@ pub struct KeyPose {
     /// Damp against the velocity of the blend instead of against rest.
     pub follow_velocity: bool,
 }
+
+snapshot!(KeyPose { rotations, gains, dampings, blend_secs, follow_velocity });
 
 /// [`KeyPose::blend_secs`] of a pose that states none \[s\].
 pub const BLEND_SECS: f64 = 0.25;

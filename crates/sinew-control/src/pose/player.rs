@@ -5,6 +5,7 @@ use crate::Target;
 use crate::ik::{IkHandles, between};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, log};
+use sinew_snapshot::snapshot;
 use sinew_world::{CharacterFrame, Frame};
 
 /// Plays key poses: aims at one at a time, and blends to it from whatever was wanted before.
@@ -29,6 +30,9 @@ struct Wanted {
     gains: [f64; Node::COUNT],
     dampings: [f64; Node::COUNT],
 }
+
+snapshot!(PosePlayer { ik, aim, from, now, elapsed_secs, written });
+snapshot!(Wanted { rotations, gains, dampings });
 
 impl PosePlayer {
     /// A player that has arrived at a pose.

@@ -11,6 +11,7 @@ pub use balance::{Balance, BalanceSettings};
 use crate::Target;
 use crate::tracker::Gains;
 use sinew_body::humanoid::Body;
+use sinew_snapshot::Snapshot;
 use sinew_world::{CharacterFrame, Frame};
 
 /// What a reflex knows.
@@ -37,8 +38,8 @@ impl Sense<'_> {
     }
 }
 
-/// A controller in Rust.
-pub trait Reflex: Send {
+/// A controller in Rust. What it remembers is kept with the stage: [`Snapshot`].
+pub trait Reflex: Snapshot + Send {
     /// Its name in scenes and commands.
     fn name(&self) -> &'static str;
 

@@ -11,6 +11,8 @@ pub(crate) struct Clock {
 /// Rounding of a fraction that is summed step by step.
 const ROUNDING: f64 = 1e-6;
 
+sinew_snapshot::snapshot!(Clock { into } fixed { time_step_secs });
+
 impl Clock {
     /// With a motion frame to begin.
     pub(crate) fn new(time_step_secs: f64) -> Clock {

@@ -22,6 +22,9 @@ struct Touch {
     moment: DVec3,
 }
 
+sinew_snapshot::snapshot!(ContactForces { parts });
+sinew_snapshot::snapshot!(Touch { impulse, size, moment });
+
 impl ContactForces {
     /// Adds what the world's last step did to a character. Floor, ground prop, own parts and what the character holds do
     /// not count: the wanted motion stands on the ones and carries the others already.

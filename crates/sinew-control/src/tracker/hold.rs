@@ -34,6 +34,9 @@ pub(crate) struct Hold {
     now: Instant,
 }
 
+sinew_snapshot::snapshot!(Grip { frequency_hz, max_acceleration });
+sinew_snapshot::snapshot!(Hold { grip, before, now });
+
 impl Hold {
     /// At rest.
     pub(crate) fn new(grip: Grip, body: &Body, pose: &Pose) -> Hold {

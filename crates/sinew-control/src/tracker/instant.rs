@@ -11,6 +11,8 @@ pub(crate) struct Instant {
     pub rotations: [DQuat; Node::COUNT],
 }
 
+sinew_snapshot::snapshot!(Instant { joints, centres, rotations });
+
 impl Instant {
     pub(crate) fn of(body: &Body, pose: &Pose) -> Instant {
         let joints = pose.positions(body);

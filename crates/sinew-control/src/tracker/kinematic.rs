@@ -17,6 +17,8 @@ pub struct KinematicTracker {
     wanted: Pose,
 }
 
+sinew_snapshot::snapshot!(KinematicTracker { clock, interpolator, wanted });
+
 impl KinematicTracker {
     /// Starts at rest in `first`; wanted poses come every `time_step_secs`.
     pub fn new(time_step_secs: f64, first: &Pose) -> KinematicTracker {

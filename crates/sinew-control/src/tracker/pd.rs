@@ -19,6 +19,8 @@ pub struct PdTracker {
     pub joint_gain: [f64; Node::COUNT],
 }
 
+sinew_snapshot::snapshot!(PdTracker { global_gain, joint_gain } fixed { gains });
+
 impl PdTracker {
     /// For a body, with the spring of each joint by [`Node::index`].
     pub fn new(body: &Body, joints: &[JointGain; Node::COUNT]) -> PdTracker {

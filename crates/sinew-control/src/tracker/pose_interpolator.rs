@@ -22,6 +22,9 @@ struct Cubic {
     slopes: [DVec3; 2],
 }
 
+sinew_snapshot::snapshot!(PoseInterpolator { from, to, hips, turns });
+sinew_snapshot::snapshot!(Cubic { value, slopes });
+
 impl Cubic {
     fn at(&self, fraction: f64) -> DVec3 {
         let (t, t2, t3) = (fraction, fraction * fraction, fraction * fraction * fraction);

@@ -36,8 +36,12 @@ pub struct ResponseTracker {
     platform: Option<Platform>,
 }
 
+// The forces are found anew in every frame.
+sinew_snapshot::snapshot!(ResponseTracker { response, clock, interpolator, hold, wanted, felt, tasks, platform } fixed { forces });
+sinew_snapshot::snapshot!(Platform { prop, origin, step_velocity, frame_velocity });
+
 /// A moving prop that the character stands on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Platform {
     prop: usize,
     /// Where it was when the character stepped on it \[m\].

@@ -35,6 +35,9 @@ const CLEAR_WEIGHT: f64 = 6000.0;
 /// Points of a part's capsule that keep clear.
 const POINTS: [f64; 3] = [0.0, 0.5, 1.0];
 
+// The list is found anew in every frame.
+sinew_snapshot::snapshot!(Tasks { upright, obstacles } fixed { list });
+
 impl Tasks {
     pub(crate) fn none() -> Tasks {
         Tasks { upright: None, obstacles: Vec::new(), list: Vec::with_capacity(UPPER_NODES) }

@@ -6,6 +6,7 @@ use crate::Target;
 use crate::reflex::Sense;
 use glam::{DVec2, DVec3};
 use sinew_body::humanoid::{Node, exp};
+use sinew_snapshot::snapshot;
 
 /// Swings of the arms about the character's left and about its facing.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,6 +23,8 @@ const THROW_RAD_S2: f64 = 25.0;
 
 /// How far the centre of pressure would have to lie outside the soles for arms to be thrown in full \[m\].
 const FULL_M: f64 = 0.06;
+
+snapshot!(Arms { pitch, roll });
 
 impl Arms {
     /// Goes on by a step. `beyond` is how far the centre of pressure would have to lie outside the soles \[m\], `swing_rad` how far

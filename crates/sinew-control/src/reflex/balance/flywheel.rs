@@ -11,6 +11,8 @@ pub(super) struct Flywheel {
     pub speed: f64,
 }
 
+sinew_snapshot::snapshot!(Flywheel { angle, speed });
+
 /// How a flywheel is swung.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swing {

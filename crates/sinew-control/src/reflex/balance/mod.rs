@@ -50,6 +50,7 @@ use glam::DVec2;
 use legs::{Ground, smooth};
 use pair::Pair;
 use sinew_body::humanoid::{Body, LEGS};
+use sinew_snapshot::snapshot;
 use sole::{Footing, Sole};
 use stance::Stance;
 use trunk::Trunk;
@@ -71,6 +72,8 @@ pub struct Balance {
     /// How fast the ground under the feet moves, smoothed \[m/s\].
     ground_velocity: DVec2,
 }
+
+snapshot!(Balance { trunk, arms, load_n, bearing, prints, ground_velocity } fixed { settings, soles, pair });
 
 /// Time over which the ground's velocity is smoothed \[s\]: feet that tip or slip for a moment are no moving ground.
 const GROUND_SECS: f64 = 0.1;

@@ -4,6 +4,7 @@ use super::polygon::{Polygon, flat};
 use crate::Target;
 use glam::{DQuat, DVec2, DVec3};
 use sinew_body::humanoid::{Body, LEGS, Node};
+use sinew_snapshot::snapshot;
 use sinew_world::{BodyState, Form, part_solid};
 
 /// The underside of a foot, in the foot's frame.
@@ -14,7 +15,7 @@ pub(super) struct Sole {
 }
 
 /// A sole in the world.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Footing {
     /// Corners between which the centre of pressure may be.
     pub corners: [DVec2; 4],
@@ -27,6 +28,8 @@ pub(super) struct Footing {
     /// Where the ankle is \[m\].
     pub ankle: DVec3,
 }
+
+snapshot!(Footing { corners, rest, height_m, level, ankle });
 
 impl Sole {
     /// Of a body. `margin_m` is left at all edges; the weight rests at `rest_share` of the length, from the heel.

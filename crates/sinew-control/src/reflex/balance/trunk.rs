@@ -8,6 +8,7 @@ use crate::Target;
 use crate::reflex::Sense;
 use glam::{DQuat, DVec2, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
+use sinew_snapshot::snapshot;
 
 /// The upper body on its hips.
 #[derive(Clone, Debug)]
@@ -19,6 +20,8 @@ pub(super) struct Trunk {
     /// Sideways bend of the chest, about the facing.
     bend: Flywheel,
 }
+
+snapshot!(Trunk { bend } fixed { inertia, chest_inertia });
 
 impl Trunk {
     pub fn of(body: &Body) -> Trunk {

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use sinew_world::World;
 
 /// What a prop has moved and turned since the character stepped on it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Carrier {
     prop: usize,
     start: (DVec3, DQuat),
@@ -20,6 +20,8 @@ pub(super) struct Carried {
     velocity: DVec3,
     spin: DVec3,
 }
+
+sinew_snapshot::snapshot!(Carrier { prop, start });
 
 impl Carrier {
     pub(super) fn new(world: &World, prop: usize) -> Option<Carrier> {

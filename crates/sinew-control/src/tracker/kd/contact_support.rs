@@ -34,6 +34,8 @@ pub(super) struct ContactSupport {
     low_m: Option<f64>,
 }
 
+sinew_snapshot::snapshot!(ContactSupport { force_n, share, low_m });
+
 impl ContactSupport {
     /// Feels what bore the body in the world's last step. `ground`: a prop that counts as such; `hips_m`: height of the wanted hips.
     pub(super) fn feel(&mut self, world: &World, character: usize, ground: Option<usize>, hips_m: f64) {

@@ -7,7 +7,7 @@ use sinew_body::humanoid::{Body, Node, Pose, exp};
 
 /// A way up. First the body gathers its feet under itself, then it stands up into the wanted pose and begins to go along with it; what
 /// the performer is ahead by then, it makes up for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct GetUp {
     lying: Pose,
     /// Against the parents; the hips' in the world.
@@ -56,6 +56,8 @@ const LIES: f64 = 0.5;
 
 /// A body is lifted off the floor this smoothly \[s\].
 const LIFT_SECS: f64 = 0.03;
+
+sinew_snapshot::snapshot!(GetUp { lying, crouch, place, drift, before, sole_m, lift_m, aside_m, gone_secs, over_secs });
 
 impl GetUp {
     /// Whether a pose is one to get up from: hips low, and turned from upright.

@@ -32,6 +32,8 @@ pub(super) struct ImpactCompliance {
     share: f64,
 }
 
+sinew_snapshot::snapshot!(ImpactCompliance { load, impulse, share });
+
 impl ImpactCompliance {
     /// Feels what pushed and touched the trunk in the world's last step.
     pub(super) fn feel(&mut self, world: &World, character: usize, mass_kg: f64, step_secs: f64) {

@@ -7,7 +7,7 @@ use sinew_world::hips_over_soles_m;
 
 /// What lies between the pose that a body has and the one that is wanted, and dies out: added to the wanted pose, it begins where
 /// the body is and ends where it is wanted, however that moves meanwhile.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct InertialBlend {
     shift: DVec3,
     /// How fast the shift grows at first \[m/s\].
@@ -34,6 +34,8 @@ const STEEPEST: f64 = 1.875;
 
 /// A body is lifted off the floor this smoothly \[s\].
 const LIFT_SECS: f64 = 0.03;
+
+sinew_snapshot::snapshot!(InertialBlend { shift, drift, turn, bends, sole_m, lift_m, gone_secs, over_secs });
 
 impl InertialBlend {
     /// From one pose to another, with the velocity of one's hips against the other's \[m/s\].

@@ -15,6 +15,8 @@ pub(super) fn smooth(share: f64) -> f64 {
     x * x * x * (10.0 - x * (15.0 - 6.0 * x))
 }
 
+sinew_snapshot::snapshot!(Ramp { from, to, gone_secs, over_secs });
+
 impl Ramp {
     /// A constant.
     pub(super) const fn at(value: f64) -> Ramp {

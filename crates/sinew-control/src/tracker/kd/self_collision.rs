@@ -31,6 +31,8 @@ pub(super) struct SelfCollision {
     masks: [u32; Node::COUNT],
 }
 
+sinew_snapshot::snapshot!(SelfCollision { masks } fixed { capsules, pairs });
+
 impl SelfCollision {
     pub(super) fn new(body: &Body) -> SelfCollision {
         let never = never_collide(body);

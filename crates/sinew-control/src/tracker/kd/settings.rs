@@ -18,6 +18,8 @@ pub struct KdGains {
     pub d_q: f64,
 }
 
+sinew_snapshot::snapshot!(KdGains { k_p, d_p, k_q, d_q });
+
 impl KdGains {
     /// How much firmer the legs are held than the rest: the ground is what a body's strength comes from
     /// (Nguyen et al. 2010, section 4.3).
@@ -97,6 +99,9 @@ pub struct KdWeight {
     pub joint: f64,
 }
 
+sinew_snapshot::snapshot!(enum KdDamping { 0: Relative, 1: Absolute });
+sinew_snapshot::snapshot!(KdWeight { pin, joint });
+
 impl KdWeight {
     /// As the gains say.
     pub const FULL: KdWeight = KdWeight { pin: 1.0, joint: 1.0 };
@@ -121,6 +126,8 @@ pub struct KdSettings {
     /// By [`Node::index`].
     pub weights: [KdWeight; Node::COUNT],
 }
+
+sinew_snapshot::snapshot!(KdSettings { gains, damping, feed_forward, yields, leans, strength, weights });
 
 impl KdSettings {
     /// A preset, damped against the performer and fed forward, all parts in full.

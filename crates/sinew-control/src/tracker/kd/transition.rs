@@ -13,6 +13,14 @@ pub(super) enum Transition {
     GetUp(GetUp),
 }
 
+sinew_snapshot::snapshot!(enum Transition { 0: InertialBlend(blend), 1: GetUp(get_up) });
+
+impl Default for Transition {
+    fn default() -> Transition {
+        Transition::InertialBlend(InertialBlend::default())
+    }
+}
+
 impl Transition {
     /// From where a body is, by getting up where it lies; with the velocities of its hips and of the wanted ones \[m/s\].
     pub(super) fn from_body(body: &Body, poses: [&Pose; 2], velocities: [DVec3; 2], over_secs: f64) -> Transition {
