@@ -21,9 +21,11 @@ mod process;
 mod protocol;
 mod script;
 mod snapshot;
+mod state;
 
 pub use error::ScriptError;
 pub use limits::Limits;
 pub use names::{CharacterNames, JointName, Names, StartInfo};
 pub use script::{Script, ScriptHost, StepOutcome};
 pub use snapshot::{CharacterState, Contact, JointState, ObjectState, PartState, Snapshot, Thing};
+pub use state::ScriptState;

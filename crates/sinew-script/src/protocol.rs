@@ -11,6 +11,9 @@ pub(crate) const MAX_SOURCE: usize = 1 << 20;
 pub(crate) const MAX_REQUEST: usize = 64 << 20;
 /// The longest message from the child \[bytes\].
 pub(crate) const MAX_REPLY: usize = 4 << 20;
+/// The longest state of a script \[bytes\].
+#[cfg(feature = "host")]
+pub(crate) const MAX_STATE: usize = 2 << 20;
 
 /// To the child.
 #[derive(Debug, Serialize)]
@@ -21,6 +24,10 @@ pub(crate) enum Request<'a> {
     Step(&'a Snapshot),
     /// Read another text and go on with a controller of it.
     Reload(&'a str),
+    /// Say what the controller's state is.
+    Save,
+    /// Read a text, make a controller of it, and give it a state that was said.
+    Restore(&'a str, &'a [u8]),
 }
 
 /// [`Request`], as the child reads it.
@@ -30,6 +37,8 @@ pub(crate) enum Asked {
     Start(Box<(StartInfo, Limits)>),
     Step(Snapshot),
     Reload(String),
+    Save,
+    Restore(String, Vec<u8>),
 }
 
 /// From the child.
@@ -39,6 +48,10 @@ pub(crate) struct Reply {
     pub commands: Vec<u8>,
     pub printed: Vec<String>,
     pub error: Option<ScriptError>,
+    /// The state that was asked for, in the child's own form.
+    pub state: Vec<u8>,
+    /// What of the state cannot be had.
+    pub lost: Vec<String>,
 }
 
 /// A whole message, length and all.

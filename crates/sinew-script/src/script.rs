@@ -2,6 +2,7 @@
 
 use crate::process::Process;
 use crate::protocol::{self, MAX_REQUEST, MAX_SOURCE, Reply, Request};
+use crate::state::ScriptState;
 use crate::{Limits, ScriptError, Snapshot, StartInfo};
 use sinew_control::Command;
 use std::path::PathBuf;
@@ -95,6 +96,65 @@ impl Script {
     /// As [`Script::start`].
     pub fn reload(&mut self, text: &str) -> Result<(), ScriptError> {
         self.read(Some(text))
+    }
+
+    /// What is kept of the script; [`Script::restore`] gives it back. Costs a round trip to the process, and the script sees nothing
+    /// of it.
+    ///
+    /// # Errors
+    /// When the process does not answer in time; it is killed then, as for a step.
+    pub fn state(&mut self) -> Result<ScriptState, ScriptError> {
+        let mut state = ScriptState {
+            source: self.info.source.clone(),
+            is_running: self.is_running,
+            is_new: self.is_new,
+            printed: self.printed.clone(),
+            ..ScriptState::default()
+        };
+        let limit = self.host.limits.step();
+        if let Some(process) = self.process.as_mut().filter(|_| self.is_running) {
+            match ask(process, &Request::Save, limit, 0) {
+                Ok((_, reply)) => (state.content, state.lost) = (reply.state, reply.lost),
+                Err(reason) => {
+                    self.kill();
+                    return Err(self.error(&reason));
+                }
+            }
+        }
+        Ok(state)
+    }
+
+    /// Reads the text of a state anew, makes an object of it and gives it the state. What the state could not hold is as reading the
+    /// text and making the object leave it. A script that had stopped is stopped.
+    ///
+    /// # Errors
+    /// When the text does not come back, or the state does not fit it; the script is stopped then.
+    pub fn restore(&mut self, state: &ScriptState) -> Result<(), ScriptError> {
+        self.info.source.clone_from(&state.source);
+        if !state.is_running {
+            self.kill();
+        } else {
+            if self.process.is_none() {
+                self.read(None)?;
+            }
+            let request = Request::Restore(&state.source, &state.content);
+            let Some(process) = self.process.as_mut() else {
+                return Err(self.error("its process has ended"));
+            };
+            let error = match ask(process, &request, self.host.limits.startup(), 0) {
+                Ok((_, reply)) => reply.error,
+                Err(reason) => Some(self.error(&reason)),
+            };
+            if let Some(error) = error {
+                self.kill();
+                return Err(error);
+            }
+            self.is_running = true;
+        }
+        // Without any state it starts anew.
+        self.is_new = state.is_new || state.content.is_empty();
+        self.printed.clone_from(&state.printed);
+        Ok(())
     }
 
     /// Ends the process; the controller is stopped until it is reloaded.

@@ -1,29 +1,35 @@
 //! The script's own object: made from its class, asked for every step.
 
+use super::state::{self, Defined, Kept};
 use super::{fault, words};
 use crate::ScriptError;
-use rustpython_vm::builtins::PyType;
+use rustpython_vm::builtins::{PyDictRef, PyType};
 use rustpython_vm::compiler::Mode;
 use rustpython_vm::{PyObjectRef, PyResult, VirtualMachine};
 
 pub(super) struct Controller {
     file: String,
     class: String,
-    instance: PyObjectRef,
+    pub instance: PyObjectRef,
+    /// The variables of its text, and what the text defines.
+    pub globals: PyDictRef,
+    pub defined: Defined,
     /// What `start()` or `reload()` is still to be called with: the object before this one, if there was one.
-    before: Option<Option<PyObjectRef>>,
+    pub before: Option<Option<PyObjectRef>>,
     /// An exception left it: it is not called any more.
-    is_stopped: bool,
+    pub is_stopped: bool,
 }
 
 impl Controller {
     /// Reads a text and makes an object of its class.
     pub fn load(vm: &VirtualMachine, source: &str, file: &str, class: &str) -> Result<Controller, ScriptError> {
-        let instance = instance(vm, source, file, class)?;
+        let (instance, globals, defined) = instance(vm, source, file, class)?;
         Ok(Controller {
             file: file.to_owned(),
             class: class.to_owned(),
             instance,
+            globals,
+            defined,
             before: Some(None),
             is_stopped: false,
         })
@@ -31,10 +37,18 @@ impl Controller {
 
     /// Goes on with another text; with the one so far when it is wrong.
     pub fn reload(&mut self, vm: &VirtualMachine, source: &str) -> Result<(), ScriptError> {
-        let new = instance(vm, source, &self.file, &self.class)?;
+        let new;
+        (new, self.globals, self.defined) = instance(vm, source, &self.file, &self.class)?;
         self.before = Some(Some(std::mem::replace(&mut self.instance, new)));
         self.is_stopped = false;
         Ok(())
+    }
+
+    /// Has a text read and an object made of it, and gives it a state that was kept.
+    pub fn restore(&mut self, vm: &VirtualMachine, source: &str, kept: Option<&Kept>) -> Result<(), ScriptError> {
+        *self = Controller::load(vm, source, &self.file, &self.class)?;
+        let Some(kept) = kept else { return Ok(()) };
+        state::restore(vm, self, kept).map_err(|exception| fault::of_exception(vm, &exception, &self.file))
     }
 
     /// Calls `start()` if it is still to be called, then `step()`.
@@ -62,7 +76,13 @@ impl Controller {
     }
 }
 
-fn instance(vm: &VirtualMachine, source: &str, file: &str, class: &str) -> Result<PyObjectRef, ScriptError> {
+/// An object of the class, the variables of the text, and what it defines.
+fn instance(
+    vm: &VirtualMachine,
+    source: &str,
+    file: &str,
+    class: &str,
+) -> Result<(PyObjectRef, PyDictRef, Defined), ScriptError> {
     let code = vm
         .compile(source, Mode::Exec, file.to_owned())
         .map_err(|error| fault::of_compiler(vm, &error, source, file))?;
@@ -79,7 +99,10 @@ fn instance(vm: &VirtualMachine, source: &str, file: &str, class: &str) -> Resul
     };
     let instance = made.call((), vm).map_err(raised)?;
     match vm.get_attribute_opt(instance.clone(), "step").map_err(raised)? {
-        Some(step) if step.is_callable() => Ok(instance),
+        Some(step) if step.is_callable() => {
+            let defined = Defined::of(vm, &scope.globals);
+            Ok((instance, scope.globals.clone(), defined))
+        }
         _ => Err(wrong(format!("class {class} has no step(self), which is called in every step"))),
     }
 }

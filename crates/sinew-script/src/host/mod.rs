@@ -22,6 +22,7 @@ mod random;
 mod reach;
 mod sense;
 mod stage;
+mod state;
 mod words;
 
 use crate::ScriptError;
@@ -57,6 +58,7 @@ fn serve(vm: &VirtualMachine) -> io::Result<()> {
         input.read_exact(&mut head)?;
         let mut bytes = vec![0; protocol::length(head, MAX_REQUEST)?];
         input.read_exact(&mut bytes)?;
+        let (mut kept, mut lost) = (Vec::new(), Vec::new());
         let error = match protocol::content::<Asked>(&bytes)? {
             Asked::Start(start) => {
                 let (info, limits) = *start;
@@ -74,9 +76,19 @@ fn serve(vm: &VirtualMachine) -> io::Result<()> {
                 Some(controller) => controller.reload(vm, &source).err(),
                 None => None,
             },
+            Asked::Save => {
+                if let Some(controller) = &controller {
+                    (kept, lost) = state_of(vm, controller)?;
+                }
+                None
+            }
+            Asked::Restore(source, bytes) => match (&mut controller, kept_state(&bytes)) {
+                (Some(controller), Ok(kept)) => controller.restore(vm, &source, kept.as_ref()).err(),
+                _ => Some(ScriptError { file: String::new(), line: None, message: "the kept state is broken".into() }),
+            },
         };
         drop(bytes);
-        answer(&mut output, error)?;
+        answer(&mut output, error, kept, lost)?;
     }
 }
 
@@ -91,10 +103,26 @@ fn output() -> io::Result<File> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-fn answer(output: &mut File, error: Option<ScriptError>) -> io::Result<()> {
+/// A script's state as bytes; one that is too long is lost as a whole.
+fn state_of(vm: &VirtualMachine, controller: &Controller) -> io::Result<(Vec<u8>, Vec<String>)> {
+    let (kept, lost) = state::save(vm, controller);
+    let bytes = postcard::to_stdvec(&kept).map_err(io::Error::other)?;
+    if bytes.len() > protocol::MAX_STATE {
+        let words = format!("everything: its state is longer than {} bytes", protocol::MAX_STATE);
+        return Ok((Vec::new(), vec![words]));
+    }
+    Ok((bytes, lost))
+}
+
+/// What bytes of a state say; `None` of a state that was lost.
+fn kept_state(bytes: &[u8]) -> io::Result<Option<state::Kept>> {
+    if bytes.is_empty() { Ok(None) } else { postcard::from_bytes(bytes).map(Some).map_err(io::Error::other) }
+}
+
+fn answer(output: &mut File, error: Option<ScriptError>, state: Vec<u8>, lost: Vec<String>) -> io::Result<()> {
     let (commands, printed) = stage::with(stage::Stage::take);
     let commands = if commands.is_empty() { Vec::new() } else { serde_json::to_vec(&commands)? };
-    let bytes = protocol::message(&Reply { commands, printed, error }, protocol::MAX_REPLY)?;
+    let bytes = protocol::message(&Reply { commands, printed, error, state, lost }, protocol::MAX_REPLY)?;
     output.write_all(&bytes)
 }
 

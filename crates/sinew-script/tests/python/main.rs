@@ -9,3 +9,4 @@ mod hostile;
 mod modules;
 mod reload;
 mod scene;
+mod state;
