@@ -23,6 +23,7 @@ mod reach_through;
 mod reaching;
 mod reaction;
 mod recording;
+mod run_hash;
 mod runner;
 pub mod scene;
 mod script_snapshot;

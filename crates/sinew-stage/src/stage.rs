@@ -8,6 +8,7 @@ use crate::build::{self, StageError};
 use crate::cast::Cast;
 use crate::event::{Cause, CharacterEffect, Effect, Event, Events};
 use crate::reaction::Reactions;
+use crate::run_hash::RunHash;
 use crate::scene::Scene;
 use crate::scripts::Running;
 use crate::take::{self, Stamped};
@@ -44,7 +45,7 @@ pub struct Stage {
     inbox: Vec<Command>,
     /// The scene's own commands that are still to come, the next one last.
     timed: Vec<(u64, usize, Command)>,
-    hasher: xxhash_rust::xxh3::Xxh3,
+    hash: RunHash,
 }
 
 impl Stage {
@@ -96,7 +97,7 @@ impl Stage {
             prop_scripts: BTreeMap::new(),
             inbox: Vec::new(),
             timed,
-            hasher: xxhash_rust::xxh3::Xxh3::new(),
+            hash: RunHash::new(),
         };
         build::begin(&mut stage)?;
         Ok(stage)
@@ -163,7 +164,7 @@ impl Stage {
         self.world.step();
         self.note_resets();
         self.note_breaks();
-        self.hasher.update(&self.world.hash().to_le_bytes());
+        self.hash.push(self.world.hash());
     }
 
     /// The frame after the last step.
@@ -216,7 +217,7 @@ impl Stage {
 
     /// A hash over all steps so far; equal for equal runs, whatever the machine.
     pub fn hash(&self) -> u64 {
-        self.hasher.digest()
+        self.hash.digest()
     }
 
     /// Commands that came from outside, for a take.

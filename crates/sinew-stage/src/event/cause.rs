@@ -71,6 +71,11 @@ pub enum Cause {
         /// What it holds \[N\].
         max_n: f64,
     },
+    /// In a stage that was restored from another one's snapshot: the words of a cause from before.
+    Earlier {
+        /// The words.
+        words: String,
+    },
 }
 
 impl fmt::Display for Cause {
@@ -95,6 +100,7 @@ impl fmt::Display for Cause {
             }
             Cause::BodyDiverged => f.write_str("its body had gone wrong"),
             Cause::JointOverload { joint } => write!(f, "{joint} bore too much"),
+            Cause::Earlier { words } => f.write_str(words),
             Cause::HoldOverload { force_n, max_n } => write!(f, "{force_n:.0} N are more than {max_n:.0} N"),
         }
     }

@@ -105,6 +105,16 @@ pub enum Effect {
         /// The words.
         text: String,
     },
+    /// In a stage that was restored from another one's snapshot: the words of an effect from before.
+    Earlier {
+        /// The words.
+        words: String,
+    },
+    /// The stage was restored, and what of a controller's state could not be kept is as reading its text leaves it.
+    StateLost {
+        /// The controller's attributes and variables, each with what it holds.
+        names: Vec<String>,
+    },
 }
 
 impl Effect {
@@ -150,6 +160,8 @@ impl fmt::Display for Effect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Effect::Character { name, effect } => effect.write(name, f),
+            Effect::Earlier { words } => f.write_str(words),
+            Effect::StateLost { names } => write!(f, "not kept in the snapshot: {}", names.join(", ")),
             Effect::Refused(error) => write!(f, "refused: {error}"),
             Effect::PropPlaced { prop } => write!(f, "{prop} is placed"),
             Effect::PropAccelerated { prop, acceleration_m_s2, for_secs } => {
