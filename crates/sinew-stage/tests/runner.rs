@@ -5,8 +5,7 @@
 use sinew_control::{Action, Command};
 use sinew_stage::{Observer, Runner, Scene, Stage};
 
-const SCENE: &str =
-    "format = 1\n[characters.one]\n[[keys]]\nkey = \"p\"\ncharacter = \"one\"\ndo = \"pose\"\nname = \"guard\"\n";
+const SCENE: &str = "format = 1\n[characters.one]\n";
 
 fn stage() -> Stage {
     Stage::new(Scene::from_text(SCENE).unwrap(), None).unwrap()
