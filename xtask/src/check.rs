@@ -1,7 +1,7 @@
 //! Everything that must hold before a change goes in.
 
 use crate::command::{self, cargo, output};
-use crate::{golden, readme, repository};
+use crate::{golden, package, readme, repository};
 
 /// Crates that others use alone, and the crates that these must not bring along.
 const ALONE: [(&str, &[&str]); 10] = [
@@ -32,6 +32,7 @@ pub fn run() -> Result<(), String> {
     }
     let docs = ["doc", "--workspace", "--all-features", "--no-deps"];
     command::run(cargo(&root, &docs).env("RUSTDOCFLAGS", "-D warnings"))?;
+    package::run()?;
     readme::run()?;
     golden::run()?;
     tests()

@@ -5,6 +5,7 @@ pub mod command;
 pub mod frame_map;
 pub mod golden;
 pub mod imports;
+pub mod package;
 pub mod page;
 pub mod readme;
 pub mod repository;

@@ -4,7 +4,23 @@
 //! the motion came on. A [`humanoid::Reduction`] turns a source skeleton's pose into that body's pose, and an answer of
 //! the body back into a deviation of the source's own joints.
 //!
-//! This crate does not know time stepping, worlds or files.
+//! ```
+//! use sinew_body::humanoid::{Body, Node, Pose};
+//!
+//! let body = Body::standard(80.0, 1.7);
+//! assert!((body.mass_kg() - 80.0).abs() < 1e-9);
+//! // Standing, the head's joint is higher than the hips'.
+//! let joints = Pose::STANDING.positions(&body);
+//! assert!(joints[Node::Head.index()].y > joints[Node::Hips.index()].y);
+//! ```
+//!
+//! | feature | gives |
+//! |---|---|
+//! | `lanes` | several characters side by side in one vector register: `wide::f64x4` and `f64x8` as `dynamics::Real` |
+//!
+//! Brings along fewer than 20 crates.
+//!
+//! What it does not do: time stepping, worlds, files.
 
 pub mod dynamics;
 pub mod humanoid;

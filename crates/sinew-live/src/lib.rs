@@ -4,6 +4,23 @@
 //! This crate does not know how a pose is followed: a capture stream becomes samples, samples become [`Command`]s, and
 //! the stage does the rest.
 //!
+//! ```
+//! use sinew_live::Impairment;
+//!
+//! // Samples of 60 a second over a network that loses every twentieth. The same seed loses the same ones.
+//! let bad = Impairment { loss: 0.05, seed: 1, ..Impairment::default() };
+//! let lost = (0..1000).filter(|&number| bad.fate(number, 1.0 / 60.0).arrivals_secs[0].is_none()).count();
+//! assert!((20..100).contains(&lost));
+//! ```
+//!
+//! | feature | gives |
+//! |---|---|
+//! | `session` | one stage for actors on several machines; brings QUIC and tokio along |
+//!
+//! Brings along fewer than 110 crates; with `session` about 35 more.
+//!
+//! What it does not do: following a pose, scenes, takes.
+//!
 //! [`Command`]: sinew_control::Command
 
 mod impairment;

@@ -3,7 +3,29 @@
 //! Inside Sinew a clip is in metres, right-handed, Y up, whatever its file said ([`SourceSpace`] remembers the
 //! difference). Body parts are named as VRM 1.0 humanoid bones ([`Part`]).
 //!
-//! This crate does not know masses, forces or time stepping.
+//! ```
+//! # #[cfg(feature = "formats")] {
+//! use sinew_motion::formats::{MotionFile, ReadOptions};
+//!
+//! let text = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\n\
+//!             CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n\
+//!             End Site\n{\nOFFSET 0 10 0\n}\n}\n\
+//!             MOTION\nFrames: 2\nFrame Time: 0.02\n0 90 0 0 0 0\n0 90 5 0 0 0\n";
+//! let file = MotionFile::from_bvh(text.as_bytes(), &ReadOptions::default())?;
+//! assert_eq!(file.clip.frames(), 2);
+//! // One joint is no human body, and the error says so.
+//! assert!(file.humanoid.is_err());
+//! # }
+//! # Ok::<(), sinew_motion::Error>(())
+//! ```
+//!
+//! | feature | gives |
+//! |---|---|
+//! | `formats` (default) | BVH, ASF/AMC and glTF in and out, FBX in; brings base64, serde, serde_json and ufbx along, which needs a C compiler |
+//!
+//! Brings along fewer than 30 crates; without `formats` eight.
+//!
+//! What it does not do: masses, forces, time stepping.
 
 mod clip;
 mod defects;

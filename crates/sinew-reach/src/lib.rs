@@ -16,7 +16,25 @@
 //! | open values | `values.rs` |
 //! | the pose it begins in; goals | `start.rs`, `reacher.rs` |
 //!
-//! This crate does not know worlds and engines.
+//! ```
+//! use glam::DVec3;
+//! use sinew_body::humanoid::Body;
+//! use sinew_reach::{Goal, Reacher, Start, Style, standing};
+//!
+//! let body = Body::standard(80.0, 1.7);
+//! let start = Start { pose: standing(&body, DVec3::ZERO, 0.0), before: None };
+//! let mut reacher = Reacher::new(&body, &Style::default(), &start)?;
+//! let goal = Goal { right: Some(DVec3::new(-0.2, 1.2, 0.45)), ..Goal::default() };
+//! let outcome = reacher.reach(&goal);
+//! assert!(outcome.is_reached());
+//! let halfway = reacher.pose_at(0.5 * outcome.arrives_secs);
+//! assert!(halfway.is_finite());
+//! # Ok::<(), sinew_reach::StyleError>(())
+//! ```
+//!
+//! It has no feature, and brings along fewer than 20 crates.
+//!
+//! What it does not do: worlds and engines; fingers; a path for the whole body around obstacles (arms keep clear of them).
 
 mod arm;
 mod arm_place;

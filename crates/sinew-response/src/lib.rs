@@ -29,7 +29,9 @@
 //! # Ok::<(), sinew_response::BasisError>(())
 //! ```
 //!
-//! This crate does not know worlds, engines or files.
+//! It has no feature, and brings along fewer than 30 crates.
+//!
+//! What it does not do: worlds, engines, files; steps, stumbles and falls.
 
 mod basis;
 mod force;

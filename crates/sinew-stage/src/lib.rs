@@ -2,6 +2,30 @@
 //!
 //! [`scene`] reads the file, [`Stage`] runs it, [`Runner`] stands around its steps: the pace of the clock,
 //! observers, the [`Recording`] of what it showed, the [`take`] of what happened to it.
+//!
+//! ```
+//! use sinew_control::{Action, Command};
+//! use sinew_stage::{Runner, Scene, Stage};
+//!
+//! let scene = Scene::from_text("format = 1\n[characters.one]\npose = \"stand\"\n")?;
+//! let mut runner = Runner::new(Stage::new(scene, None)?).with_motion().with_take();
+//! let force_n = [0.0, 0.0, 60.0];
+//! let push = Action::Push { on: "chest".into(), force_n, for_secs: 0.1, facing: false, at_m: None };
+//! runner.stage_mut().command(Command::to("one", push));
+//! runner.run(60, &mut []);
+//! let done = runner.finish();
+//! assert_eq!(done.recording.map(|recording| recording.frames), Some(16));
+//! assert_eq!(done.take.map(|take| take.commands.len()), Some(1));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | feature | gives |
+//! |---|---|
+//! | `threads` | `Stage::set_threads` may use more than one thread; same bits |
+//!
+//! Brings along fewer than 100 crates.
+//!
+//! What it does not do: pictures, sockets, the command line. Python runs in another process, whose program the caller names.
 
 mod actor;
 mod apply_command;

@@ -2,6 +2,29 @@
 //!
 //! The rigid-body library (Rapier) stays behind this crate: none of its types is seen outside, so that another solver can take
 //! its place. This crate knows nothing of where poses come from.
+//!
+//! ```
+//! use glam::DVec3;
+//! use sinew_world::{Form, Motion, PropSpec, Solid, World, WorldSettings};
+//!
+//! let mut world = World::new(WorldSettings::default());
+//! let ball = Solid::new(Form::Ball { radius_m: 0.1 });
+//! world.add_prop(PropSpec::new(ball, Motion::Dynamic { mass_kg: 1.0 }, DVec3::new(0.0, 1.0, 0.0)))?;
+//! for _ in 0..240 {
+//!     world.step();
+//! }
+//! // It has fallen on the ground.
+//! assert!(world.frame().props[0].position.y < 0.11);
+//! # Ok::<(), sinew_world::SpecError>(())
+//! ```
+//!
+//! | feature | gives |
+//! |---|---|
+//! | `threads` | `World::set_threads` may use more than one thread; same bits |
+//!
+//! Brings along fewer than 65 crates.
+//!
+//! What it does not do: where poses come from, files.
 
 mod attachment;
 mod character;
