@@ -1,4 +1,4 @@
-//! What is held: a part fastened to a prop or to another character's part, by a rigid joint or a spring.
+//! Attachments: a part attached to a prop or to another character's part, by a rigid joint or a spring.
 
 use crate::rows::joint_impulse;
 use crate::{Entity, World};
@@ -6,7 +6,7 @@ use glam::DVec3;
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
-/// A part and what it holds.
+/// An attachment: a part and the object that it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     /// The character that holds.
@@ -24,11 +24,11 @@ pub struct Held {
 pub(crate) struct Attachment {
     pub held: Held,
     joint: ImpulseJointHandle,
-    /// Of a soft hold.
+    /// Data of a soft attachment.
     spring: Option<Spring>,
 }
 
-/// A spring between two points that rest on each other.
+/// A spring between two points that coincide at rest.
 #[derive(Clone, Copy)]
 struct Spring {
     stiffness_n_m: f64,
@@ -37,14 +37,14 @@ struct Spring {
     before: DVec3,
 }
 
-/// A hand goes around what has its centre no farther from its own than this \[m\].
+/// A hand encloses an object whose centre is no farther from its own than this \[m\].
 const AROUND_M: f64 = 0.3;
 
-/// Frequency \[Hz\] and damping ratio of a soft hold.
+/// Frequency \[Hz\] and damping ratio of a soft attachment.
 const SOFT: (f64, f64) = (4.0, 0.7);
 
 impl World {
-    /// Fastens something to a part as the two lie now. Fastened already, nothing changes.
+    /// Attaches something to a part at their present relative pose. Without effect if it is attached already.
     pub fn attach(&mut self, held: Held) {
         let itself = held.object == Entity::Part(held.character, held.node);
         if itself || self.is_attached(held.character, held.node, held.object) {
@@ -56,12 +56,12 @@ impl World {
         };
         let (Some(a), Some(b)) = (self.engine.bodies.get(one), self.engine.bodies.get(other)) else { return };
         let (a_at, b_at) = (*a.position(), *b.position());
-        // A spring has no lever on what a hand goes around; what is larger, or cannot be moved, is held where the hand is.
+        // The spring acts at the centre of an enclosed object; a larger or fixed object is held at the hand's position.
         let is_small = b.is_dynamic() && (b.center_of_mass() - a.center_of_mass()).length() < AROUND_M;
         let centre = if is_small || !held.soft { b.center_of_mass() } else { a.center_of_mass() };
         let anchor = Pose::from_parts(centre, a_at.rotation);
-        // What hangs on a spring sags alike, whatever it weighs: a part with all of its character, and what cannot be moved with
-        // the one who holds it.
+        // The stiffness is scaled by the mass that hangs on the spring, so that the sag does not depend on it: a part
+        // counts with its whole character, a fixed object with the holder.
         let mass = match held.object {
             Entity::Part(owner, _) => self.mass_kg(owner),
             _ if b.is_dynamic() => b.mass(),
@@ -91,7 +91,7 @@ impl World {
         self.attachments.push(Attachment { held, joint, spring });
     }
 
-    /// Lets go of something.
+    /// Detaches something.
     pub fn detach(&mut self, character: usize, node: Node, object: Entity) {
         let joints = &mut self.engine.joints;
         self.attachments.retain(|attachment| {
@@ -109,7 +109,7 @@ impl World {
         self.held().any(|held| held.character == character && held.node == node && held.object == object)
     }
 
-    /// All that is held.
+    /// All attachments.
     pub fn held(&self) -> impl Iterator<Item = &Held> {
         self.attachments.iter().map(|attachment| &attachment.held)
     }
@@ -122,7 +122,7 @@ impl World {
         }
     }
 
-    /// Holds that broke in the last step, with the force that was too much \[N\].
+    /// Attachments that broke in the last step, with the force that broke them \[N\].
     pub fn broken_holds(&self) -> &[(Held, f64)] {
         &self.broken_holds
     }
@@ -131,7 +131,7 @@ impl World {
         self.characters.get(character).map_or(0.0, |one| one.body().mass_kg())
     }
 
-    /// Remembers how far springs are stretched before a step.
+    /// Stores the extension of springs before a step.
     pub(crate) fn prepare_attachments(&mut self) {
         for attachment in &mut self.attachments {
             if let Some(spring) = &mut attachment.spring
@@ -142,8 +142,8 @@ impl World {
         }
     }
 
-    /// Force of a hold on the part that holds \[N\], world: of a soft one the mean over the last step, of a hard one that of its last
-    /// sub-step.
+    /// Force of an attachment on the holding part \[N\], world: the mean over the last step for a soft one, that of the
+    /// last sub-step for a rigid one.
     ///
     /// The solver keeps no more than the last sub-step's impulses. Those of a spring that is stiff beside a hand's half kilogram differ
     /// from one sub-step to the next by half; its law over the whole step does not.

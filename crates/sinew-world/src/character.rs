@@ -1,4 +1,4 @@
-//! A character in the world: its bodies, joints, and what holds them.
+//! A character in the world: its bodies, joints, springs and pins.
 
 use crate::engine::Engine;
 use crate::external_force::Before;
@@ -18,9 +18,9 @@ use sinew_body::humanoid::{Body, Node};
 pub(crate) enum Hold {
     /// Forces move it.
     Free,
-    /// Forces are switched off: it goes on with a velocity that decays.
+    /// Forces are switched off: it drifts with a velocity that decays.
     Drifting,
-    /// It is moved to where it is told.
+    /// Kinematic: it is moved to a given place.
     Told,
 }
 
@@ -35,19 +35,19 @@ pub(crate) struct Character {
     pub drives: [Drive; Node::COUNT],
     pub pins: [Option<Pin>; Node::COUNT],
     pub holds: [Hold; Node::COUNT],
-    /// Moments of inertia of what hangs from each joint, about it \[kg m²\].
+    /// Outboard moments of inertia about each joint \[kg m²\].
     pub outboard: [f64; Node::COUNT],
     /// Factors on gravity.
     pub gravity_scales: [f64; Node::COUNT],
     pub planes: Vec<ImpulseJointHandle>,
-    /// What each joint's parent feels at the start of a step.
+    /// Load on each joint's parent at the start of a step.
     pub borne: [WarmStart; Node::COUNT],
     pub extra_shapes: Vec<ExtraShape>,
     /// Forces of pushes in the next step, and in the last one \[N\].
     pub pushes: [[DVec3; Node::COUNT]; 2],
     /// For the meter.
     pub before: [Before; Node::COUNT],
-    /// What its pins push off from.
+    /// The reaction body of its pins.
     pub reaction_body: Option<ReactionBody>,
     limit_spring: LimitSpring,
     stays_awake: bool,
@@ -88,7 +88,7 @@ impl Character {
         &self.spec.body
     }
 
-    /// Hands springs, limits and pins to the solver.
+    /// Passes springs, limits and pins to the solver.
     pub fn prepare(&mut self, engine: &mut Engine, step_secs: f64) {
         if self.is_asleep(engine) {
             self.before = [Before::default(); Node::COUNT];
@@ -108,8 +108,8 @@ impl Character {
         }
     }
 
-    /// Wakes the character after something that holds it has changed. What is held may seem to rest while it slowly tips, or
-    /// while it creeps to its place: only a limp body may sleep.
+    /// Wakes the character after a spring, pin or attachment has changed. A held body may seem to rest while it slowly
+    /// tips or creeps: only a limp body may sleep.
     pub fn hold_changed(&mut self, engine: &mut Engine) {
         let drives = self
             .drives
@@ -137,7 +137,7 @@ impl Character {
         engine.bodies.get(self.bodies[node.index()]).map_or(DQuat::IDENTITY, |body| *body.rotation())
     }
 
-    /// Writes a joint's rows, and what its joint begins with into the loads of the two bodies.
+    /// Writes a joint's rows, and adds its warm start to the loads of the two bodies.
     fn prepare_joint(&mut self, engine: &mut Engine, node: Node, step_secs: f64, loads: &mut [Load; Node::COUNT]) {
         let Some(parent) = node.parent() else { return };
         let sub_step_secs = step_secs / engine.parameters.num_solver_iterations as f64;

@@ -1,4 +1,4 @@
-//! Whether a body makes a sound ragdoll: one call, numbers with their bounds, and what is wrong in words.
+//! Checks whether a body makes a stable ragdoll: one call, numbers with their bounds, and the problems as text.
 
 use crate::joint::violation;
 use crate::{CharacterSpec, Drive, SpecError, World, WorldSettings, never_collide};
@@ -6,42 +6,43 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 use std::fmt;
 
-/// What [`check_ragdoll`] found.
+/// The result of [`check_ragdoll`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RagdollReport {
-    /// The largest ratio between the masses of two neighbours, and the one that hangs from the other.
+    /// The largest mass ratio of two neighbours, and the child of the two.
     pub mass_ratio: (f64, Node),
-    /// How far the rest pose (that of the spec) lies within the limits at the joint where it is nearest to one \[rad\]; negative
-    /// when it lies beyond.
+    /// Minimum margin of the rest pose (that of the spec) to a joint limit, with its joint \[rad\]; negative beyond a
+    /// limit.
     pub room_rad: (f64, Node),
-    /// Pairs that are no neighbours and overlap standing: they never collide.
+    /// Pairs that are not neighbours and overlap when standing: they never collide.
     pub overlaps: Vec<(Node, Node)>,
-    /// When the body, laid limp on its back on the ground, sleeps \[s\]; `None` when it does not within [`CHECKED_SECS`].
+    /// Time until the limp body, laid on its back on the ground, sleeps \[s\]; `None` if it does not within
+    /// [`CHECKED_SECS`].
     pub sleeps_after_secs: Option<f64>,
-    /// How far any of its parts moves in the rest of that time \[m\].
+    /// Maximum displacement of a part in the rest of that time \[m\].
     pub limp_drift_m: f64,
-    /// How far any part moves in [`CHECKED_SECS`] when springs hold its joints and its hips are held still \[m\].
+    /// Maximum displacement of a part in [`CHECKED_SECS`] with springs in its joints and fixed hips \[m\].
     pub held_drift_m: f64,
     /// The largest gap at a joint at the end of either \[m\].
     pub gap_m: f64,
 }
 
-/// For how long the check looks at the body at rest \[s\].
+/// Duration of the simulation of the body at rest \[s\].
 pub const CHECKED_SECS: f64 = 10.0;
 
 impl RagdollReport {
-    /// A solver by sweeps loses springs between masses farther apart than this.
+    /// Maximum mass ratio of neighbours: an iterative solver cannot hold springs between more different masses.
     pub const MAX_MASS_RATIO: f64 = 60.0;
-    /// A rest pose farther beyond its limits than this fights them \[rad\]: two degrees.
+    /// Maximum excess of a rest pose over its limits \[rad\]: two degrees.
     pub const MIN_ROOM_RAD: f64 = -0.035;
-    /// More pairs that pass through each other than this are a body whose shapes do not fit its bones.
+    /// Maximum number of overlapping pairs: more mean that the shapes do not fit the bones.
     pub const MAX_OVERLAPS: usize = 30;
-    /// What rests moves no farther \[m\].
+    /// Maximum drift of a body at rest \[m\].
     pub const MAX_DRIFT_M: f64 = 1e-3;
-    /// Joints at rest gape no wider \[m\].
+    /// Maximum gap of joints at rest \[m\].
     pub const MAX_GAP_M: f64 = 1e-3;
 
-    /// What is wrong, in words; empty for a sound ragdoll.
+    /// The problems as text; empty for a stable ragdoll.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let (ratio, node) = self.mass_ratio;
@@ -73,7 +74,7 @@ impl RagdollReport {
         faults
     }
 
-    /// Whether nothing is wrong.
+    /// Whether there are no problems.
     pub fn is_sound(&self) -> bool {
         self.faults().is_empty()
     }
@@ -103,8 +104,8 @@ impl fmt::Display for RagdollReport {
     }
 }
 
-/// Makes a ragdoll of a body and looks at it: masses, limits about the spec's pose, overlaps, and whether it stays where it is for
-/// ten seconds, lying limp and held by springs. Takes about half a second.
+/// Makes a ragdoll of a body and checks masses, limits around the spec's pose, overlaps, and drift over ten seconds,
+/// lying limp and held by springs. Takes about half a second.
 ///
 /// ```
 /// use glam::DVec3;
@@ -118,7 +119,7 @@ impl fmt::Display for RagdollReport {
 /// ```
 ///
 /// # Errors
-/// When no ragdoll can be made of it at all.
+/// The body cannot be made into a ragdoll at all.
 pub fn check_ragdoll(spec: &CharacterSpec) -> Result<RagdollReport, SpecError> {
     let body = &spec.body;
     let (mut mass_ratio, mut room_rad) = ((1.0, Node::Hips), (f64::INFINITY, Node::Hips));
@@ -174,7 +175,7 @@ fn lie(spec: &CharacterSpec) -> Result<Lying, SpecError> {
     Ok(lying)
 }
 
-/// Holds the body's hips still and its joints by springs of 5 Hz: how far it drifts, and the largest gap.
+/// Fixes the body's hips and holds its joints by springs of 5 Hz: returns drift and largest gap.
 fn stay(spec: &CharacterSpec) -> Result<(f64, f64), SpecError> {
     let mut world = World::new(WorldSettings { floor: None, ..WorldSettings::default() });
     world.add_character(CharacterSpec { velocity: DVec3::ZERO, ..spec.clone() })?;
@@ -202,7 +203,7 @@ fn steps(world: &World) -> usize {
     (CHECKED_SECS * world.settings().physics_hz) as usize
 }
 
-/// How far the body's shapes reach below its hips.
+/// Extent of the body's shapes below its hips.
 fn deepest_m(body: &Body, pose: &Pose) -> f64 {
     let positions = pose.positions(body);
     let reach = |node: Node| {

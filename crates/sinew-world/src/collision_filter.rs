@@ -1,14 +1,14 @@
-//! What passes through each other instead of colliding.
+//! The collision filter: pairs that pass through each other instead of colliding.
 
 use crate::engine::untag;
 use crate::{Entity, World};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
-/// Tells the library which parts pass through what.
+/// The filter as a hook of the rigid-body library.
 #[derive(Default)]
 pub(crate) struct CollisionFilter {
-    /// By character and part: a bit for each of its own parts that it passes through.
+    /// Self-collision, by character and part: a bit for each of its own parts that it passes through.
     pub own: Vec<[u32; Node::COUNT]>,
     /// Characters' parts and the props that they pass through.
     pub props: Vec<(usize, Node, usize)>,
@@ -32,7 +32,7 @@ impl PhysicsHooks for CollisionFilter {
             }
             (Some(Entity::Part(owner, node)), Some(Entity::Prop(prop)))
             | (Some(Entity::Prop(prop)), Some(Entity::Part(owner, node))) => {
-                // The two touch, without a force.
+                // The two are in contact, without a force.
                 let passes = self.props.contains(&(owner, node, prop));
                 Some(if passes { SolverFlags::empty() } else { SolverFlags::default() })
             }
@@ -54,8 +54,9 @@ impl World {
         }
     }
 
-    /// A part passes through a prop from now on, or pushes it again, once one of the two moves. The two go on touching in the [`Frame`](crate::Frame). It is
-    /// for hands: they have no fingers that close around what they reach for.
+    /// Filters collisions between a part and a prop, or stops filtering. Takes effect once one of the two moves. The
+    /// [`Frame`](crate::Frame) keeps reporting their contacts. For hands, which have no fingers to close around an
+    /// object that they reach for.
     pub fn set_passes_prop(&mut self, character: usize, node: Node, prop: usize, on: bool) {
         let props = &mut self.engine.collision_filter.props;
         let pair = (character, node, prop);
@@ -67,7 +68,7 @@ impl World {
         self.let_ask(character, node);
     }
 
-    /// The library looks at every contact of a part that asks first anew in each step: only those ask that must.
+    /// The hook has a cost for every contact in each step, so it is active only for filtered parts.
     fn let_ask(&mut self, character: usize, node: Node) {
         let asks = self.engine.collision_filter.asks(character, node);
         let Some(one) = self.characters.get(character) else { return };

@@ -1,4 +1,4 @@
-//! The rigid-body library's own sets, kept in one place: nothing outside this crate sees its types.
+//! The rigid-body library's own sets, in one place: its types are private to this crate.
 
 use crate::collision_filter::CollisionFilter;
 use crate::{Entity, WorldSettings};
@@ -30,8 +30,8 @@ impl Engine {
             dt: settings.step_secs(),
             num_solver_iterations: settings.solver_iterations,
             contact_clustering: false,
-            // Springs act through the whole body: one sweep a sub-step hands on by one joint only what has changed, and feet that
-            // hold 80 kg by an ankle's spring bounce.
+            // Springs act through the whole body: one sweep a sub-step propagates changes by one joint only, and feet
+            // that carry 80 kg by an ankle's spring bounce.
             num_internal_pgs_iterations: settings.solver_sweeps,
             num_internal_stabilization_iterations: settings.solver_sweeps.div_ceil(4),
             friction_model: FrictionModel::Coulomb,
@@ -98,7 +98,7 @@ impl Engine {
     }
 }
 
-/// What a collider belongs to, as the number that the library carries along.
+/// The owner of a collider, as the library's user data.
 pub(crate) fn tag(entity: Entity) -> u128 {
     match entity {
         Entity::Floor => 1,

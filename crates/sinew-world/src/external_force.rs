@@ -1,4 +1,4 @@
-//! What holds a body from outside: how much it spends.
+//! External (residual) forces on a body: force, torque, power and work of pins and other constraints to the world.
 
 use crate::character::Hold;
 use crate::rows::joint_impulse;
@@ -6,7 +6,7 @@ use crate::{Entity, World, ragdoll};
 use glam::{DMat3, DVec3};
 use sinew_body::humanoid::Node;
 
-/// Force, torque and power of something on a part in a step, world axes.
+/// Force, torque and power on a part in a step, world axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ExternalForce {
     /// \[N\], at the part's centre of mass.
@@ -28,13 +28,13 @@ impl ExternalForce {
     }
 }
 
-/// What a part was given that no muscle and no contact gave it.
+/// External force on a part: neither from joints (muscles) nor from contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ExternalForces {
     /// By its [`Pin`](crate::Pin), the weight that it carries included.
     pub pin: ExternalForce,
-    /// By whatever else holds it from outside: physics switched off on it, a plane, an attachment to the ground or to a prop that
-    /// physics does not move. A plane's torques are not counted; they do no work.
+    /// By other constraints to the world: physics switched off on it, a plane, an attachment to the ground or to a
+    /// fixed or moving (kinematic) prop. A plane's torques are not counted; they do no work.
     pub held: ExternalForce,
 }
 
@@ -43,7 +43,7 @@ impl ExternalForces {
     pub const NONE: ExternalForces = ExternalForces { pin: ExternalForce::NONE, held: ExternalForce::NONE };
 }
 
-/// What is known of a part before a step.
+/// State of a part before a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Before {
     pub pin_force: DVec3,
@@ -53,7 +53,7 @@ pub(crate) struct Before {
 }
 
 impl World {
-    /// Reads what the last step spent on a character.
+    /// Reads the external forces of the last step on a character.
     pub(crate) fn meter(&mut self, index: usize) {
         let step_secs = self.settings.step_secs();
         let sub_step_secs = step_secs / self.engine.parameters.num_solver_iterations as f64;
@@ -99,7 +99,8 @@ impl World {
         self.frame.characters[index].external = spent;
     }
 
-    /// Force and torque of whatever moves a part that physics does not: what its motion takes beyond weight, joints and contacts.
+    /// Force and torque that move a part whose physics is off: those that its motion requires beyond weight, joints and
+    /// contacts.
     fn moved_by(&self, index: usize, node: Node, step_secs: f64, sub_step_secs: f64) -> (DVec3, DVec3) {
         let character = &self.characters[index];
         let Some(body) = self.engine.bodies.get(character.bodies[node.index()]) else {

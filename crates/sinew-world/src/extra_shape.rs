@@ -19,7 +19,7 @@ impl World {
     /// Adds a shape to a part, in its frame, under a name; one of that name on that part is replaced. It weighs nothing.
     ///
     /// # Errors
-    /// When the shape is none, or the character has 64 of them.
+    /// The shape is degenerate, or the character already has 64 of them.
     pub fn add_shape(&mut self, character: usize, node: Node, name: &str, solid: &Solid) -> Result<(), SpecError> {
         self.remove_shape(character, node, name);
         let Some(one) = self.characters.get_mut(character) else { return Ok(()) };
@@ -33,7 +33,7 @@ impl World {
         Ok(())
     }
 
-    /// Takes a shape away that was added. False when there is none of that name on that part.
+    /// Removes an added shape. False if the part has none of that name.
     pub fn remove_shape(&mut self, character: usize, node: Node, name: &str) -> bool {
         let Some(one) = self.characters.get_mut(character) else { return false };
         let Some(place) = one.extra_shapes.iter().position(|extra| extra.node == node && extra.name == name) else {

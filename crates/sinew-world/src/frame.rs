@@ -1,10 +1,10 @@
-//! What is known of a world after a step: all that controllers sense, sinks write and clients are sent.
+//! The state of a world after a step: everything that controllers read, files store and clients receive.
 
 use crate::{ExternalForces, margin};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose};
 
-/// Something that can touch or be touched.
+/// A body that can have contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Entity {
     /// The ground.
@@ -15,7 +15,7 @@ pub enum Entity {
     Part(usize, Node),
 }
 
-/// A rigid body's place and motion, in world axes.
+/// Pose and velocity of a rigid body, in world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
     /// A part's joint to its parent, a prop's origin \[m\].
@@ -30,7 +30,7 @@ pub struct BodyState {
     pub angular_velocity: DVec3,
 }
 
-/// Two things that touch.
+/// A contact of two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// The one with the smaller [`Entity`].
@@ -41,7 +41,7 @@ pub struct Contact {
     pub point: DVec3,
     /// Impulse on `b` in this step, normal part \[N s\], world axes; `a` gets the opposite.
     pub impulse: DVec3,
-    /// The pair did not touch in the step before.
+    /// The contact is new: the pair did not touch in the previous step.
     pub begins: bool,
 }
 
@@ -58,9 +58,9 @@ pub struct CharacterFrame {
     pub facing: DVec3,
     /// Corners of the support polygon on the ground, counter-clockwise seen from above; empty in the air \[m\].
     pub support: Vec<DVec3>,
-    /// What pins, and whatever else holds parts from outside, spent in this step; by [`Node::index`].
+    /// External forces on parts in this step, by pins and by other constraints to the world; by [`Node::index`].
     pub external: [ExternalForces; Node::COUNT],
-    /// The body went wrong in this step and was put back.
+    /// The body became invalid (not finite) in this step and was reset.
     pub was_reset: bool,
 }
 
@@ -75,7 +75,7 @@ pub struct Frame {
     pub characters: Vec<CharacterFrame>,
     /// Props in the order in which they were added.
     pub props: Vec<BodyState>,
-    /// What touches, in a fixed order.
+    /// All contacts, in a fixed order.
     pub contacts: Vec<Contact>,
 }
 
@@ -111,7 +111,8 @@ impl CharacterFrame {
         Pose { hips_position: self.parts[0].position, world: self.parts.map(|part| part.rotation) }
     }
 
-    /// How far the centre of mass lies inside the support polygon, seen from above \[m\]; negative outside, `None` in the air.
+    /// Stability margin: distance of the centre of mass inside the support polygon, seen from above \[m\]; negative
+    /// outside, `None` in the air.
     pub fn support_margin_m(&self) -> Option<f64> {
         Some(margin(&self.support, self.centre_of_mass)).filter(|margin| margin.is_finite())
     }
@@ -123,8 +124,8 @@ impl CharacterFrame {
 }
 
 impl Frame {
-    /// A number over the bits of every place and velocity: equal for equal worlds, on any machine. Whoever was sent the frame
-    /// can compute it and compare it with everybody else's of the same [`Frame::step`].
+    /// A hash of the bits of every position and velocity: equal for equal worlds, on any machine. A client that
+    /// receives the frame can compute it and compare it with others of the same [`Frame::step`].
     pub fn hash(&self) -> u64 {
         let mut hasher = xxhash_rust::xxh3::Xxh3::new();
         let parts = self.characters.iter().flat_map(|character| &character.parts);
@@ -138,7 +139,7 @@ impl Frame {
         hasher.digest()
     }
 
-    /// Contacts that something takes part in.
+    /// Contacts of a body.
     pub fn touching(&self, entity: Entity) -> impl Iterator<Item = &Contact> {
         self.contacts.iter().filter(move |contact| contact.a == entity || contact.b == entity)
     }

@@ -1,8 +1,8 @@
-//! One joint for one step: its spring, and its limits as exponential springs, handed to the solver as implicit motors.
+//! One joint for one step: its spring, and its limits as exponential springs, passed to the solver as implicit motors.
 //!
-//! The rows of the solver's joint are turned so that the first axis is the one about which the swing comes to its limit soonest
-//! and the second the same for the twist. So pose spring and limit spring of one direction are one row,
-//! and both are taken at the end of the step: no stiffness that a file can state makes them explode.
+//! The rows of the solver's joint are turned so that the first axis is the one about which the swing comes to its limit
+//! soonest and the second the same for the twist. So pose spring and limit spring of one direction are one row, and
+//! both are evaluated at the end of the step (implicit): no stiffness that a file can state makes them unstable.
 //!
 //! Limits follow Shapiro et al. 2007, EQ4, in a form that does not jump at the limit: −k (e^{c v} − 1) − d θ̇ for a
 //! violation v > 0. As printed the torque is k e^{−1} at v = 0.
@@ -32,13 +32,13 @@ impl LimitSpring {
 
     /// Stiffness \[N m/rad\] whose straight line through the limit has the exponential's torque at this violation \[rad\].
     fn secant(&self, violation: f64) -> f64 {
-        // e^8 is 3,000 times k; beyond it the spring goes on straight.
+        // e^8 is 3,000 times k; beyond it the spring is linear.
         let exponent = (self.sharpness * violation).min(8.0);
         self.strength * libm::expm1(exponent) / (exponent / self.sharpness).max(1e-9)
     }
 }
 
-/// What a joint's rows begin a step with.
+/// Warm start of a joint's rows.
 #[derive(Clone, Copy)]
 pub(crate) struct Start {
     pub step_secs: f64,
@@ -48,14 +48,14 @@ pub(crate) struct Start {
 }
 
 impl Start {
-    /// The torque that a drive's joint begins with: none for springs that a step cannot follow, whose torque of one step says
-    /// nothing about that of the next.
+    /// The warm start torque of a drive's joint: none for springs too stiff for the step, whose torque of one step does
+    /// not predict that of the next.
     fn torque_for(&self, drive: &Drive) -> DVec3 {
         if drive.damping < drive.stiffness * self.step_secs { DVec3::ZERO } else { self.torque }
     }
 }
 
-/// Largest velocity by which a row's target is shifted \[rad/s\].
+/// Maximum velocity by which a row's target is shifted \[rad/s\].
 const MAX_SHIFT_RAD_S: f64 = 100.0;
 
 /// One row of a spring: `error` is the turn from wanted to present \[rad\].
@@ -68,15 +68,16 @@ struct Row {
 }
 
 impl Row {
-    /// The drive's row. Its spring takes at least a step to close its error: an undamped one of any stiffness would be there within
-    /// a sub-step otherwise, with limbs at hundreds of metres a second. It changes nothing for springs that a step can follow.
+    /// The drive's row. Its spring takes at least a step to close its error: an undamped one of any stiffness would be
+    /// there within a sub-step otherwise, with limbs at hundreds of metres a second. It has no effect on springs that a
+    /// step can resolve.
     fn of(drive: &Drive, error: f64, velocity: f64, step_secs: f64) -> Row {
         let damping = drive.damping.max(drive.stiffness * step_secs);
         Row { stiffness: drive.stiffness, damping, error, velocity: velocity * drive.damping / damping.max(1e-12) }
     }
 
-    /// The row when a torque of the joint on its parent \[N m\] acts already, and what of that torque may act: the row adds what is
-    /// missing for the torque of its law, λ (h k + d) = v + …, by a velocity that is that much off.
+    /// The row with a warm start torque of the joint on its parent \[N m\], and the part of that torque that may act:
+    /// the row adds what is missing for the torque of its law, λ (h k + d) = v + …, by an equally shifted velocity.
     fn begun_with(self, torque: f64, sub_step_secs: f64) -> (Row, f64) {
         let stiff = self.stiffness * sub_step_secs + self.damping;
         let most = MAX_SHIFT_RAD_S * stiff;
@@ -147,7 +148,7 @@ impl Reach {
     }
 }
 
-/// How far a joint is beyond its range at the limit that it is nearest to, about the axis that leads there \[rad\]; negative inside.
+/// Excess of a joint over its nearest limit, about the axis that leads there \[rad\]; negative inside.
 pub(crate) fn violation(node: Node, limit: &Limit, local: DQuat) -> f64 {
     if is_hinge(node) {
         let angle = hinge_angle(limit.centre.conjugate() * local);
@@ -178,7 +179,8 @@ fn swing_gradient(limit: &Limit, x: f64, z: f64, ratio: f64) -> (f64, f64) {
     (x / (across * across * ratio), z / (along * along * ratio))
 }
 
-/// Writes a ball joint's rows. `local` is the present `parent_from_node`. Returns what of the start's torque may act.
+/// Writes a ball joint's rows. `local` is the present `parent_from_node`. Returns the part of the warm start torque
+/// that may act.
 pub(crate) fn write_ball(
     joint: &mut GenericJoint,
     limit: &Limit,
@@ -233,7 +235,7 @@ pub(crate) fn write_hinge(
     let (sign, violation) = if high > low { (1.0, high) } else { (-1.0, low) };
     let mirrored = Row { error: sign * row.error, velocity: sign * row.velocity, ..row }.with_limit(spring, violation);
     let row = Row { error: sign * mirrored.error, velocity: sign * mirrored.velocity, ..mirrored };
-    // As with balls, the solver is to see no angle at the step's start; what is wrong about the locked axes stays.
+    // As with ball joints, the solver sees no angle at the step's start; errors about the locked axes stay.
     let (sin, cos) = libm::sincos(angle_of(local) / 2.0);
     joint.local_frame2.rotation = DQuat::from_xyzw(-sin, 0.0, 0.0, cos);
     let (row, torque) = row.begun_with(start.torque_for(drive).x, start.sub_step_secs);
@@ -242,8 +244,8 @@ pub(crate) fn write_hinge(
     DVec3::X * torque
 }
 
-/// The stop behind a limit's spring, which ends what an impact drives through it within one step \[rad beyond the limit\]: a
-/// degree and a half, about where the spring bears a fifth of m g h.
+/// The stop behind a limit's spring, which ends what an impact drives through it within one step \[rad beyond the
+/// limit\]: a degree and a half, about where the spring carries a fifth of m g h.
 const STOP: f64 = 0.026;
 
 /// A stop is a row of the solver only when it is so near that a step can reach it \[rad\]: at 80 rad/s.
@@ -253,7 +255,7 @@ const STOP_NEAR: f64 = 0.35;
 /// of it; here they lie so near to a float that every mathematics library gives the same bits.
 const STOP_RANGE: f64 = 1.46875;
 
-/// Stops a row's turn in the direction of `sign` where the limit's spring has given way.
+/// Adds a hard stop in the direction of `sign` behind the limit's spring.
 fn stop(joint: &mut GenericJoint, axis: JointAxis, violation: f64, sign: f64) {
     stop_at(joint, axis, STOP - violation, sign);
 }

@@ -1,7 +1,7 @@
-//! The rigid-body world in our words: characters, props, contacts, attachments, modified physics.
+//! The rigid-body world: characters (ragdolls), props, joints, contacts, attachments, modified physics.
 //!
-//! The rigid-body library (Rapier) stays behind this crate: none of its types is seen outside, so that another solver can take
-//! its place. This crate knows nothing of where poses come from.
+//! The rigid-body library (Rapier) is an implementation detail of this crate: none of its types is public, so that
+//! another solver could replace it. This crate does not know where poses come from.
 //!
 //! ```
 //! use glam::DVec3;

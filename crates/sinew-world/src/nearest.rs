@@ -1,4 +1,4 @@
-//! How near a point is to a prop.
+//! Nearest points on the surface of a prop.
 
 use crate::{Entity, World};
 use glam::DVec3;
@@ -8,22 +8,22 @@ use sinew_body::humanoid::Node;
 /// The point of a prop's surface that is nearest to a point of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
-    /// Where it is \[m\].
+    /// Its position \[m\].
     pub surface: DVec3,
-    /// How far the point is from it \[m\]; negative inside the prop. A mesh of triangles has no inside.
+    /// Signed distance from the point to it \[m\]; negative inside the prop. A triangle mesh has no inside.
     pub distance_m: f64,
     /// Unit vector out of the prop there.
     pub outward: DVec3,
 }
 
 impl World {
-    /// The place of a prop's surface that is nearest to a point; `None` when there is no such prop or the point is not finite.
+    /// The point of a prop's surface nearest to a point; `None` if the prop does not exist or the point is not finite.
     pub fn nearest_on_prop(&self, prop: usize, point: DVec3) -> Option<Nearest> {
         self.nearest_on(self.props.get(prop)?.handle, point)
     }
 
-    /// The thing whose surface is nearest to a part's centre of mass and no farther from it than this \[m\]: a prop that is no
-    /// sensor, or another character's part.
+    /// The thing whose surface is nearest to a part's centre of mass and no farther from it than this \[m\]: a prop
+    /// that is not a sensor, or another character's part.
     pub fn nearest_to_part(&self, character: usize, node: Node, within_m: f64) -> Option<Entity> {
         let centre = self.frame.characters.get(character)?.part(node).centre;
         let props = self.props.iter().enumerate().filter(|(_, prop)| !prop.spec.is_sensor);

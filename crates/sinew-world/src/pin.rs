@@ -1,19 +1,20 @@
-//! What holds a part to its place in the world.
+//! Pins: springs that hold parts to positions and rotations in the world.
 
 use glam::{DMat3, DQuat, DVec3};
 use rapier3d_f64::prelude::RigidBody;
 use sinew_body::humanoid::log;
 
-/// What holds a part to its place in the world: a spring per unit of mass and inertia, implicit.
+/// A pin: an implicit spring, per unit of mass and inertia, that holds a part to a position and rotation in the world.
+/// Its force is an external (residual) force.
 ///
 /// F = m (k (x̂ − x + h Δv) + d Δv + â) / (1 + h d + h² k) with Δv = v̂ − v and the step h, and the same with the inertia for
 /// the turn: stable at any k and d, because it is the force of the step's end.
 ///
-/// A part that is where it should be, as fast as it should be, gets the acceleration â when v̂ is the velocity of the step's
-/// end. With â = 0 it lags.
+/// A part without error in position and velocity gets the acceleration â if v̂ is the velocity at the end of the step.
+/// With â = 0 it lags.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
-    /// Wanted place of the part's joint \[m\].
+    /// Wanted position of the part's joint \[m\].
     pub position: DVec3,
     /// Wanted `world_from_part`.
     pub rotation: DQuat,
@@ -21,9 +22,9 @@ pub struct Pin {
     pub velocity: DVec3,
     /// Wanted angular velocity \[rad/s\].
     pub angular_velocity: DVec3,
-    /// Wanted acceleration of the centre of mass, given to it on top of the spring \[m/s²\].
+    /// Wanted acceleration of the centre of mass, added to the spring (feed-forward) \[m/s²\].
     pub acceleration: DVec3,
-    /// Torque on top of the spring \[N m\].
+    /// Torque added to the spring \[N m\].
     pub torque: DVec3,
     /// Stiffness per unit mass \[1/s²\].
     pub stiffness: f64,
@@ -33,14 +34,14 @@ pub struct Pin {
     pub turn_stiffness: f64,
     /// Damping of the turn per unit inertia \[1/s\].
     pub turn_damping: f64,
-    /// Share of the part's weight that is carried, 0 to 1.
+    /// Share of the part's weight that the pin carries, 0 to 1.
     pub gravity_share: f64,
-    /// Largest force \[N\]; the torque is cut in the same proportion.
+    /// Maximum force \[N\]; the torque is reduced in the same proportion.
     pub max_force_n: f64,
 }
 
 impl Pin {
-    /// At the origin, without any force: to be filled in.
+    /// A pin at the origin without any force, for struct update syntax.
     pub const LOOSE: Pin = Pin {
         position: DVec3::ZERO,
         rotation: DQuat::IDENTITY,

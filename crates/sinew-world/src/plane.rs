@@ -1,14 +1,15 @@
-//! Characters held to a plane: two dimensions within three (Shapiro et al. 2007, section 4.1).
+//! Plane constraints: characters restricted to two dimensions (Shapiro et al. 2007, section 4.1).
 //!
-//! Every part keeps its distance to a vertical plane and turns about the plane's normal alone, by rows of the solver: forces
-//! across the plane are taken up, those along it act as ever.
+//! Every part keeps its distance to a vertical plane and rotates about the plane's normal alone, by rows of the solver:
+//! forces across the plane are resolved by the constraint, those along it act unchanged.
 
 use crate::World;
 use glam::{DMat3, DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 
 impl World {
-    /// Holds a character to the vertical plane that contains `facing` (horizontal) and passes through each part as it lies now.
+    /// Constrains a character to vertical planes that contain `facing` (horizontal) and pass through each part at its
+    /// present position.
     pub fn hold_to_plane(&mut self, character: usize, facing: DVec3) {
         self.free_from_plane(character);
         let Some(normal) = DVec3::Y.cross(facing).try_normalize() else { return };
@@ -23,7 +24,7 @@ impl World {
             let flat = flatten(body.linvel());
             body.set_linvel(flat, true);
             body.set_angvel(normal * body.angvel().dot(normal), true);
-            // The part's turn across the plane is kept as it is: its own frame, turned into the plane's.
+            // The part's rotation out of the plane is kept: its own frame, rotated into the plane's.
             let joint = GenericJointBuilder::new(locks)
                 .local_frame1(Pose::from_parts(body.center_of_mass(), world_from_plane))
                 .local_frame2(Pose::from_parts(
@@ -44,7 +45,7 @@ impl World {
         }
     }
 
-    /// Whether a character is held to a plane.
+    /// Whether a character is constrained to a plane.
     pub fn is_held_to_plane(&self, character: usize) -> bool {
         self.characters.get(character).is_some_and(|one| !one.planes.is_empty())
     }

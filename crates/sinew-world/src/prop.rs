@@ -54,7 +54,7 @@ impl Prop {
             .sensor(spec.is_sensor)
             .user_data(tag(Entity::Prop(index)));
         if spec.is_sensor {
-            // A sensor also feels what does not move by itself.
+            // A sensor also detects fixed and kinematic bodies.
             collider = collider.active_collision_types(ActiveCollisionTypes::all());
         }
         collider = match mass {

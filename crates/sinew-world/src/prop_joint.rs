@@ -1,7 +1,7 @@
-//! Joints that fasten props: to each other, to the ground, to a part of a character.
+//! Joints of props: to each other, to the ground, to a part of a character.
 //!
-//! Hinges are written anew for each step: the solver sees no angle at the step's start, and a stop only when a step can reach it.
-//! So no mathematics of the platform takes part, and a wheel may turn for ever.
+//! Hinges are rewritten for each step: the solver sees no angle at the step's start, and a stop only when a step can
+//! reach it. So the platform's mathematics is not used, and a wheel may rotate without end.
 
 use crate::joint::stop_at;
 use crate::rows::joint_impulse;
@@ -9,25 +9,25 @@ use crate::{Entity, SpecError, World, sanitize};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 
-/// A joint to be made.
+/// Description of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropJointSpec {
-    /// What it fastens to what; [`Entity::Floor`] is the world itself.
+    /// The two bodies that it connects; [`Entity::Floor`] is the world itself.
     pub between: [Entity; 2],
-    /// Where it is fastened to the first and to the second, in the world as the two lie now \[m\]. Only for ropes and springs the
-    /// two points differ; for the others the first counts.
+    /// Anchors on the first and on the second body, in the world at their present poses \[m\]. Only ropes and springs
+    /// use both; other joints use the first.
     pub anchors: [DVec3; 2],
-    /// What it leaves free.
+    /// Its kind: the degrees of freedom that it leaves free.
     pub kind: PropJointKind,
-    /// What drives it; only hinges and sliders can be driven.
+    /// Its motor; only hinges and sliders can have one.
     pub motor: Option<Motor>,
     /// Breaks above this force \[N\].
     pub break_force_n: Option<f64>,
-    /// The two push each other where they touch.
+    /// The two bodies collide with each other.
     pub touches: bool,
 }
 
-/// What a joint leaves free.
+/// The kind of a joint, by its free degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PropJointKind {
     /// Nothing.
@@ -38,14 +38,14 @@ pub enum PropJointKind {
     Hinge {
         /// The axis.
         axis: DVec3,
-        /// How far it turns: from at most 0 to at least 0, within ±3 rad.
+        /// Its limits: from at most 0 to at least 0, within ±3 rad.
         range: Option<[f64; 2]>,
     },
     /// Shifts of the second against the first along an axis of the world as they lie now; `range` \[m\] from there.
     Slider {
         /// The axis.
         axis: DVec3,
-        /// How far it slides: from at most 0 to at least 0.
+        /// Its limits: from at most 0 to at least 0.
         range: Option<[f64; 2]>,
     },
     /// Everything up to a distance of the anchors.
@@ -64,42 +64,43 @@ pub enum PropJointKind {
     },
 }
 
-/// What drives a hinge or a slider.
+/// The motor of a hinge or a slider.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor {
-    /// What it aims at.
+    /// Its target.
     pub aim: Aim,
-    /// Largest torque \[N m\], or force \[N\] of a slider.
+    /// Maximum torque \[N m\], or force \[N\] of a slider.
     pub strength: f64,
 }
 
-/// What a motor aims at.
+/// The target of a motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Aim {
     /// A speed \[rad/s, m/s\].
     Speed(f64),
-    /// A place \[rad, m\] from where the joint was made; it is there after about a third of a second.
+    /// A position \[rad, m\] relative to that at creation; reached after about a third of a second.
     Place(f64),
 }
 
-/// How a joint stands.
+/// The state of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PropJointState {
-    /// It has neither been cut nor broken.
+    /// It is neither cut nor broken.
     pub is_whole: bool,
-    /// Of a hinge its angle \[rad\], of a slider its shift \[m\], from where the joint was made; else the anchors' distance \[m\].
+    /// The angle of a hinge \[rad\], the shift of a slider \[m\], relative to creation; otherwise the distance of the
+    /// anchors \[m\].
     pub place: f64,
-    /// How fast that changes \[rad/s, m/s\].
+    /// Its rate of change \[rad/s, m/s\].
     pub speed: f64,
 }
 
-/// How far off its speed a motor gives all its strength \[rad/s, m/s\].
+/// Error of the speed at which a motor saturates \[rad/s, m/s\].
 const FULL_AT_SPEED: f64 = 0.1;
 
-/// How far off its place a motor gives all its strength \[rad, m\].
+/// Error of the position at which a motor saturates \[rad, m\].
 const FULL_AT_PLACE: f64 = 0.1;
 
-/// Damping of a motor that aims at a place, over its stiffness \[s\].
+/// Ratio of damping to stiffness of a position motor \[s\].
 const PLACE_SECS: f64 = 0.1;
 
 /// Joints of props in a world.
@@ -110,17 +111,18 @@ pub(crate) struct PropJoint {
     /// `None` once it is cut.
     handle: Option<ImpulseJointHandle>,
     bodies: [RigidBodyHandle; 2],
-    /// Its frames in the two bodies, as it was made.
+    /// Its frames in the two bodies at creation.
     frames: [Pose; 2],
-    /// How it stood before the step, as [`PropJointState::place`].
+    /// Its position before the step, as [`PropJointState::place`].
     before: f64,
 }
 
 impl World {
-    /// Fastens two things as they lie now. Returns the joint's number.
+    /// Connects two bodies at their present poses. Returns the joint's number.
     ///
     /// # Errors
-    /// When the two are the same or not there, a number is not sanitize, or a motor drives what cannot be driven.
+    /// The two are the same or do not exist, a number is invalid, or a joint that is neither hinge nor slider has a
+    /// motor.
     pub fn add_prop_joint(&mut self, spec: PropJointSpec) -> Result<usize, SpecError> {
         if !is_sound(&spec) || self.prop_joints.len() >= MAX_JOINTS {
             return Err(SpecError::NoJoint);
@@ -157,8 +159,8 @@ impl World {
         Ok(self.prop_joints.len() - 1)
     }
 
-    /// Drives a hinge or a slider from now on, or lets it go with `None`. Nothing happens for other joints and for numbers that are
-    /// not sound.
+    /// Sets the motor of a hinge or a slider, or releases it with `None`. Takes effect in the next step. Without effect
+    /// for other joints and for invalid numbers.
     pub fn set_prop_motor(&mut self, joint: usize, motor: Option<Motor>) {
         let Some(joint) = self.prop_joints.get_mut(joint) else { return };
         if motor.is_none_or(|motor| is_motor(&motor, &joint.spec.kind)) {
@@ -166,19 +168,19 @@ impl World {
         }
     }
 
-    /// What drives a joint.
+    /// The motor of a joint.
     pub fn prop_motor(&self, joint: usize) -> Option<Motor> {
         self.prop_joints.get(joint)?.spec.motor
     }
 
-    /// Cuts a joint for good. False when it was cut or broken before, or is none.
+    /// Cuts a joint permanently. False if it is cut or broken already, or does not exist.
     pub fn cut_prop_joint(&mut self, joint: usize) -> bool {
         let Some(handle) = self.prop_joints.get_mut(joint).and_then(|joint| joint.handle.take()) else { return false };
         self.engine.joints.remove(handle, true);
         true
     }
 
-    /// How a joint stands now. One that is none is not whole.
+    /// The present state of a joint. One that does not exist is not whole.
     pub fn prop_joint(&self, joint: usize) -> PropJointState {
         let Some(joint) = self.prop_joints.get(joint) else { return PropJointState::default() };
         let bodies = joint.bodies.map(|handle| self.engine.bodies.get(handle));
@@ -187,14 +189,14 @@ impl World {
         PropJointState { is_whole: joint.handle.is_some(), place, speed }
     }
 
-    /// Hands the joints of props to the solver.
+    /// Passes the joints of props to the solver.
     pub(crate) fn prepare_prop_joints(&mut self) {
         for joint in &mut self.prop_joints {
             joint.prepare(&mut self.engine.joints, &self.engine.bodies);
         }
     }
 
-    /// Breaks the joints that bore too much in the last step.
+    /// Breaks the joints whose force in the last step exceeded their limit.
     pub(crate) fn break_prop_joints(&mut self) {
         let step_secs = self.settings.step_secs();
         let sub_step_secs = step_secs / self.engine.parameters.num_solver_iterations as f64;
@@ -229,7 +231,7 @@ impl PropJoint {
         let Some(handle) = self.handle else { return };
         self.before = self.place_now(bodies);
         let [Some(one), Some(other)] = self.bodies.map(|handle| bodies.get(handle)) else { return };
-        // What hangs or swings slowly is slower than any threshold of sleep.
+        // A slow pendulum is slower than any threshold of sleep.
         let Some(joint) = joints.get_mut(handle, true) else { return };
         let (range, axis) = match self.spec.kind {
             PropJointKind::Hinge { range, .. } => (range, JointAxis::AngX),
@@ -238,7 +240,7 @@ impl PropJoint {
         };
         let (place, _) = self.place(one, other);
         let data = &mut joint.data;
-        // Where the solver's own zero lies.
+        // The solver's own zero position.
         let zero = if axis == JointAxis::AngX {
             let (sin, cos) = libm::sincos(place / 2.0);
             data.local_frame2.rotation = self.frames[1].rotation * DQuat::from_xyzw(-sin, 0.0, 0.0, cos);

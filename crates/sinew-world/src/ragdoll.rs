@@ -1,8 +1,8 @@
 //! A character's body as rigid bodies and joints.
 //!
-//! Every part is a rigid body with its origin at the joint to its parent. Knees are hinges, all other joints balls whose
-//! swing and twist are limited (`joint.rs`). Parts that are neighbours, or that overlap when the body stands, do not
-//! collide with each other.
+//! Every part is a rigid body with its origin at the joint to its parent. Knees are hinges, all other joints balls
+//! whose swing and twist are limited (`joint.rs`). Neighbouring parts, and parts that overlap when the body stands, do
+//! not collide with each other.
 
 use crate::character::Character;
 use crate::engine::Engine;
@@ -12,12 +12,12 @@ use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node, Pose as BodyPose, Sole};
 
-/// Smallest moment of inertia of a part, relative to the body's mass times its stature squared \[1\]: about 0.009 kg m² for
-/// 80 kg and 1.7 m. A collar bone or a foot alone has a tenth of that, and springs that hold a whole body
-/// through it converge poorly; nobody sees the difference, since such parts are carried by their neighbours.
+/// Smallest moment of inertia of a part, relative to the body's mass times its stature squared \[1\]: about 0.009 kg m²
+/// for 80 kg and 1.7 m. A collar bone or a foot alone has a tenth of that, and springs that hold a whole body through
+/// it converge poorly; the difference is not visible, since such parts move with their neighbours.
 const MIN_INERTIA: f64 = 4e-5;
 
-/// Friction of a joint that is let go, relative to its outboard inertia \[1/s\].
+/// Friction of a limp joint, relative to its outboard inertia \[1/s\].
 pub(crate) const LIMP_DAMPING: f64 = 2.0;
 
 /// The body's own collision shape of a part.
@@ -48,12 +48,12 @@ fn foot(body: &Body, node: Node) -> Solid {
     Solid::new(Form::Box { size_m }).at(centre)
 }
 
-/// Height of the ankle over the sole \[m\].
+/// Height of the ankle above the sole \[m\].
 pub fn sole_m(body: &Body, node: Node) -> f64 {
     Sole::of(body, node).ankle_m
 }
 
-/// How far the hips of a pose lie above the lowest point of the soles \[m\].
+/// Height of the hips of a pose above the lowest point of the soles \[m\].
 pub fn hips_over_soles_m(body: &Body, pose: &BodyPose) -> f64 {
     let positions = pose.positions(body);
     let mut lowest = f64::INFINITY;
@@ -69,7 +69,7 @@ pub fn hips_over_soles_m(body: &Body, pose: &BodyPose) -> f64 {
     pose.hips_position.y - lowest
 }
 
-/// Moment of inertia of what hangs from each joint, about it, standing: the mean over three axes \[kg m²\].
+/// Outboard moment of inertia about each joint, standing: the mean over three axes \[kg m²\].
 pub fn outboard_inertias(body: &Body) -> [f64; Node::COUNT] {
     let positions = BodyPose::STANDING.positions(body);
     let mut inertias = [0.0; Node::COUNT];
@@ -165,7 +165,7 @@ pub(crate) fn part_collider(solid: &Solid, surface: Surface, character: usize, n
     )
 }
 
-/// Pairs that are no neighbours, yet overlap when the body stands.
+/// Pairs that are not neighbours, but overlap when the body stands.
 pub fn never_collide(body: &Body) -> Vec<(Node, Node)> {
     let pose = BodyPose::STANDING;
     let positions = pose.positions(body);

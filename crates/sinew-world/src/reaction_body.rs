@@ -1,4 +1,4 @@
-//! What a character's pins push off from: nothing, or a prop that gets the opposite of what they give the body.
+//! The reaction body of a character's pins: a prop that receives the opposite of their forces, or none.
 
 use crate::World;
 use crate::engine::Engine;
@@ -7,21 +7,23 @@ use glam::DVec3;
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
-/// A prop, and what the pins do to it.
+/// A prop, and the reaction of the pins on it.
 #[derive(Clone, Copy)]
 pub(crate) struct ReactionBody {
     prop: RigidBodyHandle,
-    /// Force of the pins on the body, and torque about the prop's centre of mass, as far as the prop feels them by now.
+    /// Low-pass filtered force of the pins on the body, and torque about the prop's centre of mass.
     force: DVec3,
     torque: DVec3,
 }
 
 impl World {
-    /// What a character's pins push off from from now on. A prop that physics moves gets the opposite of their forces and
-    /// torques, so that it bears the body that they hold over it; with `None`, and for any other prop, they come from nowhere.
+    /// Sets the reaction body of a character's pins. A dynamic prop receives the opposite of their forces and torques,
+    /// so that it carries the body; with `None`, and for any other prop, the pins' forces are external. Takes effect in
+    /// the next step.
     ///
-    /// The prop feels them a few steps late: by the ratio of the body's mass, and of its moment of inertia about the prop, to the
-    /// prop's own. Pins take no account of how a light prop gives way under them, and would shake it.
+    /// The prop receives them through a low-pass filter, a few steps late: by the ratio of the body's mass, and of its
+    /// moment of inertia about the prop, to the prop's own. Pins do not account for the motion of a light prop under
+    /// them, and would shake it.
     pub fn set_reaction_body(&mut self, character: usize, prop: Option<usize>) {
         let handle = prop.and_then(|prop| Some(self.props.get(prop)?.handle));
         let Some(character) = self.characters.get_mut(character) else { return };
@@ -32,11 +34,11 @@ impl World {
 }
 
 impl ReactionBody {
-    /// Gives the prop what it gets in the next step.
+    /// Applies the reaction to the prop for the next step.
     pub fn press(&mut self, engine: &mut Engine, parts: &[RigidBodyHandle; Node::COUNT], pins: &[Before; Node::COUNT]) {
         let Some(prop) = engine.bodies.get(self.prop).filter(|prop| prop.is_dynamic()) else { return };
         let (centre, mass, own) = (prop.center_of_mass(), prop.mass(), prop.mass_properties().local_mprops);
-        // Along its axes, so that a long prop feels soon what turns it slowly.
+        // Along its axes, so that a long prop responds quickly about its slow axes.
         let axes = *prop.rotation() * own.principal_inertia_local_frame;
         let (mut force, mut torque) = (DVec3::ZERO, DVec3::ZERO);
         let (mut body_mass, mut body_inertia) = (0.0, DVec3::ZERO);
@@ -65,7 +67,7 @@ impl ReactionBody {
     }
 }
 
-/// Share of what is new that a prop feels within a step: what heavier things do it feels more slowly.
+/// Filter coefficient for a step: slower for heavier bodies relative to the prop.
 fn share(body: f64, prop: f64) -> f64 {
     let share = prop / (prop + body);
     if share.is_finite() { share } else { 0.0 }

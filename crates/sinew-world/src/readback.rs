@@ -1,4 +1,4 @@
-//! Reading the world into its [`Frame`], and putting back what went wrong.
+//! Readback of the world into its [`Frame`], and reset of bodies that became invalid.
 
 use crate::engine::untag;
 use crate::frame::{BodyState, CharacterFrame, Contact, Entity};
@@ -13,16 +13,16 @@ use sinew_body::humanoid::Node;
 #[derive(Default)]
 pub(crate) struct Readback {
     touching_before: Vec<(Entity, Entity)>,
-    /// Points that characters stand on: character, point.
+    /// Support points of characters: character, point.
     standing: Vec<(usize, DVec3)>,
     hull: Vec<DVec3>,
 }
 
-/// A contact whose normal is this upright carries \[1\].
+/// Minimum vertical component of a contact's normal for support \[1\].
 const CARRYING: f64 = 0.5;
 
 impl World {
-    /// Brings what was added into the frame; what was there before stays as the last step left it.
+    /// Adds new bodies to the frame; existing ones stay as the last step left them.
     pub(crate) fn read_back_new(&mut self) {
         while self.frame.characters.len() < self.characters.len() {
             self.frame.characters.push(CharacterFrame::EMPTY);
@@ -64,7 +64,7 @@ impl World {
         for node in Node::ALL {
             let Some(body) = self.engine.bodies.get(character.bodies[node.index()]) else { continue };
             let mut state = state_of(body);
-            // Before its first step the library does not know where the mass of a body is.
+            // Before its first step the library has not computed a body's centre of mass.
             state.centre = state.position + state.rotation * character.spec.body.link(node).centre;
             let part_mass = character.spec.body.link(node).mass_kg;
             mass += part_mass;
@@ -82,7 +82,7 @@ impl World {
         }
     }
 
-    /// The last sound place of every part, at rest.
+    /// The last valid pose of every part, at rest.
     fn put_back(&mut self, index: usize) {
         self.characters[index].borne = Default::default();
         let character = &self.characters[index];
@@ -139,7 +139,7 @@ impl World {
                     None => *collider.position(),
                 };
                 for point in &manifold.points {
-                    // What arrives fast is stopped in the step before it touches: its push counts, wherever it begins.
+                    // A fast body is stopped in the step before it touches: its impulse counts from any distance.
                     if point.dist > NEAR_M && point.data.impulse <= 0.0 {
                         continue;
                     }
@@ -242,7 +242,7 @@ impl World {
         self.body(character).map_or(DVec3::ZERO, |body| ragdoll::part_inertia(body, node))
     }
 
-    /// Moment of inertia of what hangs from a joint, about it, standing \[kg m²\].
+    /// Outboard moment of inertia about a joint, standing \[kg m²\].
     pub fn outboard_inertia(&self, character: usize, node: Node) -> f64 {
         self.characters.get(character).map_or_else(
             || ragdoll::outboard_inertias(&sinew_body::humanoid::Body::standard(80.0, 1.7))[node.index()],
@@ -251,11 +251,11 @@ impl World {
     }
 }
 
-/// Points farther apart than this, and that do not push each other, do not touch \[m\].
+/// Points farther apart than this and without an impulse do not count as contact \[m\].
 const NEAR_M: f64 = 0.004;
 
 impl CharacterFrame {
-    /// A character of which nothing is known yet: at rest at the origin.
+    /// A character before its first readback: at rest at the origin.
     pub const EMPTY: CharacterFrame = CharacterFrame {
         parts: [BodyState::REST; Node::COUNT],
         centre_of_mass: DVec3::ZERO,

@@ -1,75 +1,76 @@
-//! Numbers from outside, made sound before the solver sees them: files, scripts and networks can state anything.
+//! Sanitizes numbers from outside before the solver uses them: clamps them to their ranges and rejects NaN, infinite
+//! and degenerate values. Files, scripts and networks can state anything.
 
 use crate::{Drive, Form, MAX_FORCE_N, Pin, Solid, Surface, WorldSettings};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node};
 
-/// Farther from the origin than this nothing may be, and nothing may be larger \[m\].
+/// Maximum distance from the origin, and maximum size \[m\].
 pub(crate) const FARTHEST_M: f64 = 1e4;
 
-/// Thinnest size of a shape \[m\].
+/// Minimum size of a shape \[m\].
 const THINNEST_M: f64 = 1e-4;
 
-/// Largest speed that is given to anything \[m/s\]; the solver lets nothing go faster either.
+/// Maximum speed that can be set \[m/s\]; the solver clamps to it too.
 pub(crate) const MAX_SPEED_M_S: f64 = 400.0;
 
-/// Largest angular velocity that is given to anything \[rad/s\]: beyond it a step turns a part by more than half a turn.
+/// Maximum angular velocity that can be set \[rad/s\]: beyond it a step turns a part by more than half a turn.
 pub(crate) const MAX_SPIN_RAD_S: f64 = 500.0;
 
-/// Largest torque of a [`Drive`], or of a [`Pin`] on top of its spring \[N m\].
+/// Maximum additional torque of a [`Drive`] or a [`Pin`] \[N m\].
 const MAX_TORQUE_N_M: f64 = 1e4;
 
-/// Largest acceleration that a [`Pin`] asks for \[m/s²\].
+/// Maximum acceleration of a [`Pin`] \[m/s²\].
 const MAX_ACCELERATION_M_S2: f64 = 1e5;
 
-/// Largest factor on gravity.
+/// Maximum factor on gravity.
 const MAX_GRAVITY_SCALE: f64 = 100.0;
 
-/// Largest acceleration of gravity \[m/s²\].
+/// Maximum acceleration of gravity \[m/s²\].
 const MAX_GRAVITY_M_S2: f64 = 1000.0;
 
-/// Stiffness and damping stay below this, in whatever unit.
+/// Maximum stiffness and damping, in any unit.
 const MAX_GAIN: f64 = 1e9;
 
-/// The rotation, normalised; `None` when it is none.
+/// The normalised rotation; `None` if it is invalid.
 pub(crate) fn unit(rotation: DQuat) -> Option<DQuat> {
     let length = rotation.length();
     (length.is_finite() && length > 1e-6).then(|| rotation / length)
 }
 
-/// Whether a place lies in the world.
+/// Whether a position is finite and within the world's bounds.
 pub(crate) fn is_place(place: DVec3) -> bool {
     place.is_finite() && place.abs().max_element() < FARTHEST_M
 }
 
-/// The velocity, no faster than anything may be; `None` when it is not finite.
+/// The velocity, clamped to the maximum speed; `None` if it is not finite.
 pub(crate) fn velocity(velocity: DVec3) -> Option<DVec3> {
     velocity.is_finite().then(|| shortened(velocity, MAX_SPEED_M_S))
 }
 
-/// The angular velocity, no faster than anything may be; `None` when it is not finite.
+/// The angular velocity, clamped to the maximum; `None` if it is not finite.
 pub(crate) fn spin(spin: DVec3) -> Option<DVec3> {
     spin.is_finite().then(|| shortened(spin, MAX_SPIN_RAD_S))
 }
 
-/// The force, no larger than [`MAX_FORCE_N`]; `None` when it is not finite.
+/// The force, clamped to [`MAX_FORCE_N`]; `None` if it is not finite.
 pub(crate) fn force(force: DVec3) -> Option<DVec3> {
     force.is_finite().then(|| shortened(force, MAX_FORCE_N))
 }
 
-/// The factor on gravity, within its bounds; `None` when it is not finite.
+/// The factor on gravity, clamped; `None` if it is not finite.
 pub(crate) fn gravity_scale(scale: f64) -> Option<f64> {
     scale.is_finite().then(|| scale.clamp(-MAX_GRAVITY_SCALE, MAX_GRAVITY_SCALE))
 }
 
-/// Cuts a vector's length; finite vectors of any length (the square of 1e200 is not).
+/// Clamps a vector's length; works for finite vectors of any length (the square of 1e200 is infinite).
 fn shortened(vector: DVec3, length: f64) -> DVec3 {
     let largest = vector.abs().max_element();
     if largest <= length { vector.clamp_length_max(length) } else { (vector / largest).normalize() * length }
 }
 
-/// A drive that the solver can take; `None` for numbers that are not finite, gains that are negative or too large, and a rotation
-/// that is none.
+/// A valid drive; `None` for numbers that are not finite, gains that are negative or too large, and an invalid
+/// rotation.
 pub(crate) fn drive(drive: Drive) -> Option<Drive> {
     let gains = (0.0..MAX_GAIN).contains(&drive.stiffness) && (0.0..MAX_GAIN).contains(&drive.damping);
     if !(gains && drive.torque.is_finite()) {
@@ -83,7 +84,7 @@ pub(crate) fn drive(drive: Drive) -> Option<Drive> {
     })
 }
 
-/// A pin that the solver can take; `None` as for [`drive`].
+/// A valid pin; `None` as for [`drive`].
 pub(crate) fn pin(pin: Pin) -> Option<Pin> {
     let gains = [pin.stiffness, pin.damping, pin.turn_stiffness, pin.turn_damping];
     let gains = gains.iter().all(|gain| (0.0..MAX_GAIN).contains(gain));
@@ -103,7 +104,7 @@ pub(crate) fn pin(pin: Pin) -> Option<Pin> {
     })
 }
 
-/// The settings, every number within its bounds, those that are not finite as the default has them.
+/// The settings with every number clamped to its range; those that are not finite become the default.
 pub(crate) fn settings(settings: WorldSettings) -> WorldSettings {
     let usual = WorldSettings::default();
     let finite = |number: f64, or: f64| if number.is_finite() { number } else { or };
@@ -116,13 +117,13 @@ pub(crate) fn settings(settings: WorldSettings) -> WorldSettings {
     }
 }
 
-/// The surface, its numbers within their bounds.
+/// The surface with its numbers clamped.
 pub(crate) fn surface(surface: Surface) -> Surface {
     let within = |number: f64, most: f64| if number.is_nan() { 0.0 } else { number.clamp(0.0, most) };
     Surface { friction: within(surface.friction, 10.0), bounce: within(surface.bounce, 1.0) }
 }
 
-/// Whether a shape has sizes that a thing in the world can have.
+/// Whether a shape is valid: finite, not degenerate and within the bounds of the world.
 pub(crate) fn is_solid(solid: &Solid) -> bool {
     let size = |size: f64| (THINNEST_M..FARTHEST_M).contains(&size);
     let form = match &solid.form {
@@ -159,7 +160,7 @@ fn has_volume(points: &[DVec3]) -> bool {
     farthest(&|point| (point - first).dot(normal).abs()).is_some()
 }
 
-/// The first part of a body that no ragdoll can be made of.
+/// The first part of a body that is invalid for a ragdoll.
 pub(crate) fn faulty_part(body: &Body) -> Option<Node> {
     Node::ALL.into_iter().find(|&node| {
         let (link, shape) = (body.link(node), body.link(node).shape);

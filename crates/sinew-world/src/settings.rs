@@ -1,8 +1,8 @@
-//! How the world steps.
+//! Settings of the world.
 
 use serde::{Deserialize, Serialize};
 
-/// Constants of a world.
+/// Settings of a world, fixed when it is made.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorldSettings {
     /// Physics steps a second \[Hz\], 60 to 2000. Below about 120 stiff joints sag.
@@ -11,13 +11,14 @@ pub struct WorldSettings {
     pub gravity_m_s2: f64,
     /// Sub-steps of the solver in each step, 1 to 64. Joint gaps shrink with its square, cost grows with it.
     pub solver_iterations: usize,
-    /// Sweeps over all joints and contacts in each sub-step, 1 to 64. Below 6 a standing body's feet tremble by centimetres a second.
+    /// Sweeps over all joints and contacts in each sub-step, 1 to 64. Below 6 a standing body's feet jitter by
+    /// centimetres a second.
     pub solver_sweeps: usize,
     /// The ground: a plane at height 0 with this friction and bounce; `None` for none.
     pub floor: Option<Surface>,
 }
 
-/// How a surface rubs and bounces.
+/// Friction and restitution of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Surface {
     /// Coefficient of friction; between two surfaces the mean counts.

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::{Pose as Placement, SharedShape};
 
-/// A shape that can be touched, in the frame of what carries it.
+/// A collision shape, in the frame of its body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solid {
     /// Its form.
@@ -34,14 +34,14 @@ pub enum Form {
         /// Between the centres of the caps.
         length_m: f64,
     },
-    /// A ring about y, made of straight pieces.
+    /// A ring (torus) about y, made of straight pieces.
     Ring {
         /// From the axis to the middle of the tube.
         radius_m: f64,
         /// Radius of the tube.
         tube_m: f64,
     },
-    /// Triangles; has no inside, so only for what does not move.
+    /// A triangle mesh; has no inside, so only for bodies that are not dynamic.
     Mesh {
         /// Corners.
         points_m: Vec<DVec3>,
@@ -55,7 +55,7 @@ pub enum Form {
     },
 }
 
-/// Pieces of a ring: enough that a ball's path through it meets no corner higher than a hundredth of the radius.
+/// Number of pieces of a ring: enough that no corner deviates by more than a hundredth of the radius.
 pub const RING_PIECES: usize = 16;
 
 impl Solid {
@@ -81,7 +81,7 @@ impl Solid {
         Placement::from_parts(self.centre, self.rotation.normalize())
     }
 
-    /// `None` for a hull or a mesh that is none, and for sizes that are not above 0 or beyond all bounds.
+    /// `None` for a degenerate hull or mesh, and for sizes that are not above 0 or out of range.
     pub(crate) fn shape(&self) -> Option<SharedShape> {
         if !crate::sanitize::is_solid(self) {
             return None;
@@ -105,7 +105,7 @@ impl Solid {
     }
 }
 
-/// Corners of the polygon that stands for a ring about y.
+/// Corners of the polygon that approximates a ring about y.
 pub fn ring_corners(radius_m: f64) -> [DVec3; RING_PIECES] {
     std::array::from_fn(|at| {
         let (sin, cos) = libm::sincos(at as f64 * std::f64::consts::TAU / RING_PIECES as f64);

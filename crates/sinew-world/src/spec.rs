@@ -1,15 +1,15 @@
-//! What is put into a world.
+//! Descriptions of characters and props for a world.
 
 use crate::{Solid, Surface};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Pose};
 
-/// A character to be made a ragdoll of.
+/// Description of a character, from which a ragdoll is made.
 #[derive(Clone, Debug)]
 pub struct CharacterSpec {
     /// Masses, lengths, limits.
     pub body: Body,
-    /// How it is placed at the start.
+    /// Its initial pose.
     pub pose: Pose,
     /// Velocity of the whole body \[m/s\].
     pub velocity: DVec3,
@@ -20,14 +20,14 @@ pub struct CharacterSpec {
 /// How a prop moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// Pushed by all, with this mass \[kg\].
+    /// Dynamic: moved by forces and contacts, with this mass \[kg\].
     Dynamic {
         /// Mass.
         mass_kg: f64,
     },
     /// Never moves.
     Fixed,
-    /// Moves as told, and nothing stops it: a platform.
+    /// Kinematic: moves as commanded, and nothing stops it: a platform.
     Moving,
 }
 
@@ -36,11 +36,11 @@ pub enum Motion {
 pub struct PropSpec {
     /// Its shape about its origin.
     pub solid: Solid,
-    /// How it moves.
+    /// The kind of its motion.
     pub motion: Motion,
-    /// How it rubs and bounces.
+    /// Its friction and restitution.
     pub surface: Surface,
-    /// Where its origin is \[m\].
+    /// Position of its origin \[m\].
     pub position: DVec3,
     /// `world_from_prop`.
     pub rotation: DQuat,
@@ -48,11 +48,11 @@ pub struct PropSpec {
     pub velocity: DVec3,
     /// Angular velocity \[rad/s\].
     pub spin: DVec3,
-    /// Only feels touches.
+    /// A sensor: detects contacts without collision response.
     pub is_sensor: bool,
     /// Factor on gravity.
     pub gravity_scale: f64,
-    /// What air takes of its velocity and of its turning, relative to them \[1/s\].
+    /// Linear and angular damping \[1/s\].
     pub drag_per_s: f64,
 }
 
@@ -74,7 +74,7 @@ impl PropSpec {
     }
 }
 
-/// Why something cannot be put into a world.
+/// Why something cannot be added to a world.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpecError {
     /// Numbers that are not finite, or beyond the world's bounds.
@@ -98,7 +98,7 @@ pub enum SpecError {
          0, a range around 0, and a motor only on a hinge or a slider"
     )]
     NoJoint,
-    /// A mass, size or inertia that is not above 0, or beyond all bounds.
+    /// A mass, size or inertia that is not above 0, or out of range.
     #[error("{0} has no mass or no size, or one that is not a sound number")]
     NoMass(&'static str),
 }

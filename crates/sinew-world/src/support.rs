@@ -1,4 +1,4 @@
-//! The support polygon: the convex hull of what a character stands on, seen from above.
+//! The support polygon: the convex hull of a character's support points, seen from above.
 
 use glam::DVec3;
 

@@ -1,9 +1,10 @@
-//! What a joint bore in the last step, handed to the next as a start.
+//! Warm start of joints: the constraint force of the last step, applied at the start of the next.
 //!
-//! The solver begins every step with joints that bear nothing, and a sweep hands forces on by one joint; so with few sweeps a
+//! The solver begins every step with unloaded joints, and a sweep propagates forces by one joint; so with few sweeps a
 //! loaded spring sags more than it should. (Its own warm start of joints changes no result: it gives each row its old
-//! impulse just before that row is solved, which takes it back.) Here the old forces act as forces of the step, in pairs, and each
-//! spring's target is shifted so that force and spring together obey the spring's law: the solver finds what has changed.
+//! impulse just before that row is solved, which undoes it.) Here the old forces act as forces of the step, in pairs,
+//! and each spring's target is shifted so that force and spring together satisfy the spring's law: the solver only
+//! finds the change.
 
 use crate::rows::joint_impulse;
 use glam::{DMat3, DVec3};
@@ -16,15 +17,15 @@ pub(crate) struct WarmStart {
     pub torque: DVec3,
 }
 
-/// Share that is handed on. All of it makes springs at rest exact with any number of sweeps; but then what a fall leaves behind
-/// dies out slowly, and a standing body trembles twice as much.
+/// Share of the force that is carried over. With all of it springs at rest are exact with any number of sweeps; but
+/// then the transients of a fall decay slowly, and a standing body jitters twice as much.
 const SHARE: f64 = 0.95;
 
-/// Most that is handed on \[weights of the body\]: above it is an impact, which is over.
+/// Maximum force that is carried over \[weights of the body\]: a larger one is an impact, which is over.
 const MAX_WEIGHTS: f64 = 4.0;
 
 impl WarmStart {
-    /// What the joint bore in the last step, when this acted as its start.
+    /// The joint's force in the last step, in which this warm start acted.
     pub fn after(self, joint: &ImpulseJoint, bodies: &RigidBodySet, sub_step_secs: f64) -> WarmStart {
         let Some(parent) = bodies.get(joint.body1()) else { return WarmStart::default() };
         let axes = DMat3::from_quat(parent.rotation() * joint.data.local_frame1.rotation);
@@ -40,7 +41,7 @@ impl WarmStart {
         }
     }
 
-    /// What of it the next step begins with.
+    /// The warm start of the next step.
     pub fn handed_on(self, weight_n: f64, stature_m: f64) -> WarmStart {
         let share = |vector: DVec3, most: f64| {
             if vector.is_finite() { (vector * SHARE).clamp_length_max(most) } else { DVec3::ZERO }

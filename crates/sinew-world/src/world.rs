@@ -1,4 +1,4 @@
-//! The world: put things in, step, look at the [`Frame`].
+//! The world: add bodies, step, read the [`Frame`].
 
 use crate::attachment::Attachment;
 use crate::character::{Character, Hold};
@@ -66,16 +66,16 @@ impl World {
         &self.settings
     }
 
-    /// Steps on this many threads from now on, 1 to 64, and says on how many: always 1 without the feature `threads`. The number
-    /// changes no bit of what comes out.
+    /// Sets the number of threads, 1 to 64, and returns the number in use: always 1 without the feature `threads`.
+    /// Results do not depend on it, bit for bit.
     pub fn set_threads(&mut self, threads: usize) -> usize {
         self.engine.set_threads(threads.clamp(1, 64))
     }
 
-    /// Makes a ragdoll of a body; its joints hang until they are driven. Returns its number.
+    /// Adds a ragdoll of a body; its joints are limp until they are driven. Returns its number.
     ///
     /// # Errors
-    /// When a place is not finite or a part has no mass or size.
+    /// A position is not finite, or a part has no mass or size.
     pub fn add_character(&mut self, spec: CharacterSpec) -> Result<usize, SpecError> {
         let index = self.characters.len();
         let character = ragdoll::build(&mut self.engine, &spec, index)?;
@@ -88,7 +88,7 @@ impl World {
     /// Adds a prop. Returns its number.
     ///
     /// # Errors
-    /// When a place is not finite, the shape is none, or a dynamic prop is a triangle mesh.
+    /// A position is not finite, the shape is degenerate, or a dynamic prop is a triangle mesh.
     pub fn add_prop(&mut self, spec: PropSpec) -> Result<usize, SpecError> {
         let index = self.props.len();
         self.props.push(Prop::build(&mut self.engine, spec, index)?);
@@ -96,8 +96,7 @@ impl World {
         Ok(index)
     }
 
-    /// One step of physics: springs and pins are handed to the solver, everything moves, and what is known of it is in the
-    /// [`World::frame`] afterwards.
+    /// One physics step: passes springs and pins to the solver, moves everything, and updates the [`World::frame`].
     pub fn step(&mut self) {
         let step_secs = self.settings.step_secs();
         for character in &mut self.characters {
@@ -117,7 +116,7 @@ impl World {
         self.look();
     }
 
-    /// The world after the last step.
+    /// The state of the world after the last step.
     pub fn frame(&self) -> &Frame {
         &self.frame
     }
@@ -127,12 +126,13 @@ impl World {
         Some(self.characters.get(character)?.body())
     }
 
-    /// Moments of inertia of what hangs from each joint of a character, about it, standing \[kg m²\]; by [`Node::index`].
+    /// Outboard moments of inertia about each joint of a character, standing \[kg m²\]; by [`Node::index`].
     pub fn outboard_inertias(&self, character: usize) -> Option<&[f64; Node::COUNT]> {
         Some(&self.characters.get(character)?.outboard)
     }
 
-    /// Holds a joint from now on. Numbers that are not finite, or negative gains, let it go limp instead.
+    /// Sets the drive of a joint. Takes effect in the next step and stays until it is changed. With numbers that are
+    /// not finite, or negative gains, the joint becomes limp.
     pub fn set_drive(&mut self, character: usize, node: Node, drive: Drive) {
         let Some(character) = self.characters.get_mut(character) else { return };
         let outboard = character.outboard[node.index()];
@@ -143,7 +143,7 @@ impl World {
         }
     }
 
-    /// Lets all joints and pins of a character go.
+    /// Makes a character limp: removes all drives and pins.
     pub fn set_limp(&mut self, character: usize) {
         let Some(character) = self.characters.get_mut(character) else { return };
         for at in 0..Node::COUNT {
@@ -153,7 +153,7 @@ impl World {
         character.hold_changed(&mut self.engine);
     }
 
-    /// Holds a part to a place in the world, or lets it go with `None`.
+    /// Sets the pin of a part, or removes it with `None`. Takes effect in the next step.
     pub fn set_pin(&mut self, character: usize, node: Node, pin: Option<Pin>) {
         let Some(character) = self.characters.get_mut(character) else { return };
         let pin = pin.and_then(sanitize::pin);
@@ -163,8 +163,8 @@ impl World {
         }
     }
 
-    /// Moves a part to a place by the end of the next step, whatever is in its way; it stays so until
-    /// [`World::set_forces`] frees it.
+    /// Moves a part kinematically to a pose by the end of the next step; it stays kinematic until [`World::set_forces`]
+    /// frees it.
     pub fn move_part(&mut self, character: usize, node: Node, position: DVec3, rotation: DQuat) {
         let Some(character) = self.characters.get_mut(character) else { return };
         let Some(rotation) = sanitize::unit(rotation).filter(|_| sanitize::is_place(position)) else { return };
@@ -177,8 +177,8 @@ impl World {
         }
     }
 
-    /// Switches forces on a part off (it drifts on with a velocity that decays) or on again
-    /// (Shapiro et al. 2007, section 4.1).
+    /// Switches physics of a part off (it drifts with a velocity that decays) or on again (Shapiro et al. 2007, section
+    /// 4.1).
     pub fn set_forces(&mut self, character: usize, node: Node, on: bool) {
         let Some(character) = self.characters.get_mut(character) else { return };
         character.holds[node.index()] = if on { Hold::Free } else { Hold::Drifting };
@@ -199,7 +199,8 @@ impl World {
         }
     }
 
-    /// Forces of [`World::push_part`] in the last step, all together on each part of a character \[N\]; by [`Node::index`].
+    /// Sum of the forces of [`World::push_part`] in the last step on each part of a character \[N\]; by
+    /// [`Node::index`].
     pub fn pushes(&self, character: usize) -> Option<&[DVec3; Node::COUNT]> {
         Some(&self.characters.get(character)?.pushes[1])
     }
@@ -228,7 +229,7 @@ impl World {
         let parts = self.characters.iter().flat_map(|character| character.bodies);
         let props = self.props.iter().map(|prop| prop.handle);
         for handle in parts.chain(props) {
-            // Whatever is taken mutably the library looks at again.
+            // Mutable access marks a body as changed in the library.
             let pushed = |body: &RigidBody| body.user_force() != DVec3::ZERO || body.user_torque() != DVec3::ZERO;
             if self.engine.bodies.get(handle).is_some_and(pushed)
                 && let Some(body) = self.engine.bodies.get_mut(handle)
@@ -267,12 +268,12 @@ impl World {
         body.map_or(1.0, RigidBody::gravity_scale)
     }
 
-    /// Gives a part another collision shape, its own again with `own`, or none at all. Its mass stays; its inertia is that of the
-    /// mass spread over the shape, if that is more than its own: a foot that turned as lightly as ever under a long ski would
-    /// let the ski's ends sink into the ground.
+    /// Gives a part another collision shape, its own again with `own`, or none at all. Its mass stays; its inertia is
+    /// that of the mass spread over the shape, if that is more than its own: with the inertia of a foot alone the ends
+    /// of a long ski would sink into the ground.
     ///
     /// # Errors
-    /// When the shape is none.
+    /// The shape is degenerate.
     pub fn set_shape(&mut self, character: usize, node: Node, shape: PartShape) -> Result<(), SpecError> {
         let Some(one) = self.characters.get_mut(character) else { return Ok(()) };
         let own = ragdoll::part_solid(one.body(), node);
@@ -302,7 +303,8 @@ impl World {
         Ok(())
     }
 
-    /// Adds a turning of the whole character about its centre of mass, as if it were one rigid body \[rad/s\].
+    /// Adds an angular velocity of the whole character about its centre of mass, as if it were one rigid body
+    /// \[rad/s\].
     pub fn spin_character(&mut self, character: usize, spin: DVec3) {
         let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.characters.get(character)) else {
             return;
@@ -318,8 +320,8 @@ impl World {
         self.read_back_character(character);
     }
 
-    /// Gives every part of a character its velocity and angular velocity \[m/s, rad/s\]; by [`Node::index`]. What is not finite
-    /// is left out.
+    /// Gives every part of a character its velocity and angular velocity \[m/s, rad/s\]; by [`Node::index`]. Values
+    /// that are not finite are ignored.
     pub fn set_velocities(&mut self, character: usize, velocities: &[(DVec3, DVec3); Node::COUNT]) {
         let Some(one) = self.characters.get(character) else { return };
         for (handle, (velocity, spin)) in one.bodies.into_iter().zip(velocities) {
@@ -332,7 +334,7 @@ impl World {
         self.read_back_character(character);
     }
 
-    /// Puts a prop somewhere else, or gives it another velocity.
+    /// Sets a prop's position or velocity.
     pub fn place_prop(&mut self, prop: usize, position: Option<DVec3>, velocity: Option<DVec3>) {
         let Some(prop) = self.props.get_mut(prop) else { return };
         if let Some(body) = self.engine.bodies.get_mut(prop.handle) {
@@ -345,7 +347,7 @@ impl World {
         }
     }
 
-    /// Accelerates a moving prop from now on \[m/s²\]; zero keeps its speed.
+    /// Sets the acceleration of a moving (kinematic) prop \[m/s²\]; zero keeps its speed.
     pub fn accelerate_prop(&mut self, prop: usize, acceleration: DVec3) {
         if let Some(prop) = self.props.get_mut(prop)
             && prop.spec.motion == Motion::Moving
@@ -373,16 +375,16 @@ fn spread_inertia(bounds: &rapier3d_f64::parry::bounding_volume::Aabb, about: DV
     DVec3::new(square.y + square.z, square.z + square.x, square.x + square.y) * mass_kg
 }
 
-/// Largest force that is taken \[N\]: ten tonnes' weight; beyond it bodies pass through what they hit.
+/// Maximum force \[N\]; larger ones are clamped. Ten tonnes' weight: beyond it bodies tunnel through obstacles.
 pub const MAX_FORCE_N: f64 = 1e5;
 
-/// What [`World::set_shape`] gives a part.
+/// The collision shape of a part, for [`World::set_shape`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum PartShape {
     /// The body's own.
     Own,
-    /// Another, in the part's frame.
+    /// Another shape, in the part's frame.
     Other(crate::Solid),
-    /// None: it passes through everything.
+    /// No shape: it passes through everything.
     None,
 }
