@@ -82,7 +82,10 @@ impl Defined {
             let class = globals.get_item_opt(name.as_str(), vm).ok()??.downcast::<PyType>().ok()?;
             is_own(vm, &class).then(|| (name.clone(), class))
         });
-        found.collect()
+        // By name: identity differs from one process to the next.
+        let mut found: Vec<_> = found.collect();
+        found.sort_by(|(one, _), (other, _)| one.cmp(other));
+        found
     }
 }
 
@@ -127,6 +130,7 @@ pub(super) fn save(vm: &VirtualMachine, controller: &Controller) -> (Kept, Vec<S
         classes: controller.defined.classes(&controller.globals, vm),
         values: Vec::new(),
         places: BTreeMap::new(),
+        texts: BTreeMap::new(),
         held: Vec::new(),
         lost: Vec::new(),
     };
@@ -175,6 +179,8 @@ struct Saver<'a> {
     values: Vec<Value>,
     /// The place of each object in the table, by identity.
     places: BTreeMap<usize, u32>,
+    /// The place of each text: which of them are one object is Python's own affair.
+    texts: BTreeMap<String, u32>,
     /// Keeps what the table knows by identity alive.
     held: Vec<PyObjectRef>,
     lost: Vec<String>,
@@ -201,6 +207,7 @@ impl Saver<'_> {
         let kept = self.keep(value);
         if kept.is_err() {
             self.values.truncate(values);
+            self.texts.retain(|_, place| (*place as usize) < values);
             for object in self.held.drain(held..) {
                 self.places.remove(&object.get_id());
             }
@@ -228,6 +235,14 @@ impl Saver<'_> {
             return Err(format!("more than {MAX_VALUES} values"));
         }
         let place = self.values.len() as u32;
+        if value.class().is(self.vm.ctx.types.str_type)
+            && let Some(text) = text_of(value)
+        {
+            if let Some(place) = self.texts.get(&text) {
+                return Ok(*place);
+            }
+            self.texts.insert(text, place);
+        }
         self.values.push(Value::None);
         self.places.insert(value.get_id(), place);
         self.held.push(value.clone());
@@ -327,18 +342,21 @@ pub(super) fn restore(vm: &VirtualMachine, controller: &mut Controller, kept: &K
             _ => controller.globals.clone(),
         };
         let is_globals = dict.is(&controller.globals);
+        let mut fresh = BTreeMap::new();
         for (name, present) in dict.items_vec() {
             let name = text_of(&name).unwrap_or_default();
-            let is_kept = names.iter().any(|(known, _)| *known == name);
             let is_fixed =
                 is_globals && (name == "__builtins__" || controller.defined.name(&present) == Some(name.as_str()));
-            if !is_kept && !is_fixed {
+            if !is_fixed {
                 dict.del_item(name.as_str(), vm)?;
+                fresh.insert(name, present);
             }
         }
+        // In the order of then, which a script can see. What is lost stays as it is.
         for (name, place) in names {
-            if let Some(place) = place {
-                dict.set_item(name.as_str(), value(*place)?, vm)?;
+            let kept = place.map(&value).transpose()?;
+            if let Some(value) = kept.or_else(|| fresh.remove(name)) {
+                dict.set_item(name.as_str(), value, vm)?;
             }
         }
     }
