@@ -55,6 +55,7 @@ mod scripts;
 mod stage;
 pub mod take;
 mod timed_effect;
+mod timeline;
 mod tracking;
 
 pub use actor::Actor;
@@ -70,3 +71,4 @@ pub use runner::{Finished, Observer, Runner};
 pub use scene::{Scene, SceneError, scene_schema};
 pub use stage::Stage;
 pub use take::{Take, TakeError};
+pub use timeline::{KnownTake, SeekError, Timeline};

@@ -1,7 +1,7 @@
 //! What stands around the steps of a stage: the clock, observers, the recording, the take.
 
 use crate::take::{HashTrace, Take};
-use crate::{Pacer, Recording, Stage};
+use crate::{Pacer, Recording, SeekError, Stage, Timeline};
 
 /// Somebody who gives a stage commands and watches what comes of them: a keyboard, a session's network, a report, a progress bar.
 pub trait Observer {
@@ -51,6 +51,7 @@ pub struct Runner {
     pacer: Option<Pacer>,
     recording: Option<Recording>,
     trace: Option<Vec<u64>>,
+    timeline: Option<Timeline>,
 }
 
 /// A run that has ended.
@@ -76,7 +77,7 @@ impl Runner {
     pub fn new(mut stage: Stage) -> Runner {
         stage.keep_record(false);
         let steps_per_frame = u64::from(stage.scene().stage.steps_per_frame()).max(1);
-        Runner { stage, steps_per_frame, is_paced: false, pacer: None, recording: None, trace: None }
+        Runner { stage, steps_per_frame, is_paced: false, pacer: None, recording: None, trace: None, timeline: None }
     }
 
     /// Keeps to the clock: one second of the stage takes one second. The clock starts with the next step.
@@ -104,6 +105,57 @@ impl Runner {
             self.trace = Some(Vec::new());
         }
         self
+    }
+
+    /// Keeps a time line, so that [`Runner::seek`], [`Runner::go_to`] and [`Runner::what_if`] can go back.
+    ///
+    /// # Errors
+    /// When the stage has done a step already.
+    pub fn with_timeline(mut self) -> Result<Runner, SeekError> {
+        self.timeline = Some(Timeline::new(&mut self.stage)?);
+        Ok(self)
+    }
+
+    /// The time line, if one is kept.
+    pub fn timeline(&self) -> Option<&Timeline> {
+        self.timeline.as_ref()
+    }
+
+    /// Goes to a step of the present take, earlier or later. The motion and the take that are kept are those until then.
+    ///
+    /// # Errors
+    /// Without a time line, or when the take does not go so far; everything is as before then.
+    pub fn seek(&mut self, step: u64) -> Result<(), SeekError> {
+        let present = self.timeline.as_ref().ok_or(SeekError::NoTimeline)?.present();
+        self.go_to(present, step)
+    }
+
+    /// Goes to a step of any take; see [`Timeline::go_to`].
+    ///
+    /// # Errors
+    /// Without a time line, without such a take, or when it does not go so far; everything is as before then.
+    pub fn go_to(&mut self, take: usize, step: u64) -> Result<(), SeekError> {
+        let timeline = self.timeline.as_mut().ok_or(SeekError::NoTimeline)?;
+        let mut recording = self.recording.as_ref().map(|_| Recording::new(&self.stage));
+        let mut trace = self.trace.as_ref().map(|_| Vec::new());
+        let steps_per_frame = self.steps_per_frame;
+        timeline.go_to_watched(&mut self.stage, take, step, &mut |stage| {
+            keep(stage, steps_per_frame, recording.as_mut(), trace.as_mut());
+        })?;
+        (self.recording, self.trace) = (recording, trace);
+        // The clock starts anew.
+        self.pacer = None;
+        Ok(())
+    }
+
+    /// Goes to a step of the present take and begins another take there, free of the commands that came after; see
+    /// [`Timeline::what_if`]. Returns its number.
+    ///
+    /// # Errors
+    /// As [`Runner::seek`], and when there are too many takes.
+    pub fn what_if(&mut self, step: u64) -> Result<usize, SeekError> {
+        self.seek(step)?;
+        self.timeline.as_mut().ok_or(SeekError::NoTimeline)?.branch_here(&mut self.stage)
     }
 
     /// The stage as it is now.
@@ -145,19 +197,12 @@ impl Runner {
         self.keep();
     }
 
-    /// Keeps of the finished step what is to be kept. Everything that has to be had of the past is kept here.
+    /// Keeps of the finished step what is to be kept.
     fn keep(&mut self) {
-        let frame = self.stage.frame();
-        if let Some(recording) = &mut self.recording
-            && frame.step.is_multiple_of(self.steps_per_frame)
-            && frame.time_secs <= Runner::MAX_MOTION_SECS
-        {
-            recording.push(&self.stage);
-        }
-        if let Some(trace) = &mut self.trace
-            && frame.step.is_multiple_of(TRACE_STEPS)
-        {
-            trace.push(self.stage.hash());
+        keep(&self.stage, self.steps_per_frame, self.recording.as_mut(), self.trace.as_mut());
+        if let Some(timeline) = &mut self.timeline {
+            // It sees every step; only takes beyond the thousandth are not kept apart.
+            let _ = timeline.watch(&self.stage);
         }
     }
 
@@ -176,5 +221,22 @@ impl Runner {
         let take = self.take();
         let lapses = self.pacer.as_ref().map_or(0, Pacer::lapses);
         Finished { stage: self.stage, recording: self.recording, take, lapses }
+    }
+}
+
+/// Keeps of a step what is to be kept: its motion, and its hash for the take.
+fn keep(stage: &Stage, steps_per_frame: u64, recording: Option<&mut Recording>, trace: Option<&mut Vec<u64>>) {
+    let frame = stage.frame();
+    if let Some(recording) = recording
+        && frame.step.is_multiple_of(steps_per_frame)
+        && frame.time_secs <= Runner::MAX_MOTION_SECS
+    {
+        recording.push(stage);
+    }
+    if let Some(trace) = trace
+        && frame.step > 0
+        && frame.step.is_multiple_of(TRACE_STEPS)
+    {
+        trace.push(stage.hash());
     }
 }

@@ -178,6 +178,19 @@ impl Stage {
         self.prescribed = Some(commands);
     }
 
+    /// Nothing is prescribed any more: scripts are held to time themselves.
+    pub(crate) fn prescribe_nothing(&mut self) {
+        self.prescribed = None;
+    }
+
+    /// Another stage of the same scene, at its start.
+    ///
+    /// # Errors
+    /// As [`Stage::new`].
+    pub(crate) fn again(&self) -> Result<Stage, StageError> {
+        Stage::new(Scene::clone(&self.scene), self.host.clone())
+    }
+
     /// Steps the world on this many threads from now on, 1 to 64, and says on how many: always 1 without the feature `threads`.
     /// The number changes no bit of what comes out.
     pub fn set_threads(&mut self, threads: usize) -> usize {

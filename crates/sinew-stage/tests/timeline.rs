@@ -1,0 +1,115 @@
+//! Any earlier time can be gone back to, and run on from in another way, while the first take is kept.
+
+#![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
+
+use sinew_control::{Action, Command};
+use sinew_stage::{Runner, Scene, SeekError, Stage, Timeline};
+
+const SCENE: &str = "format = 1\n[characters.one]\nreflexes = [\"balance\"]\n\
+                     [props.ball]\nball_radius_m = 0.1\nmass_kg = 2\nposition_m = [0.1, 2.5, 0.3]\n\
+                     [[at]]\ntime_secs = 0.1\ncharacter = \"one\"\ndo = \"push\"\non = \"chest\"\nforce_n = [0, 0, 60]\nfor_secs = 0.1\n";
+
+fn stage() -> Stage {
+    Stage::new(Scene::from_text(SCENE).unwrap(), None).unwrap()
+}
+
+fn gain(factor: f64) -> Command {
+    Command::to("one", Action::Gain { factor, part: None })
+}
+
+/// Steps to a step, with commands before some; gives the hash after every step.
+fn run(stage: &mut Stage, timeline: &mut Timeline, until: u64, commands: &[(u64, Command)]) -> Vec<u64> {
+    let mut hashes = Vec::new();
+    while stage.frame().step < until {
+        let now = stage.frame().step;
+        commands.iter().filter(|(step, _)| *step == now).for_each(|(_, command)| stage.command(command.clone()));
+        stage.step();
+        timeline.watch(stage).unwrap();
+        hashes.push(stage.hash());
+    }
+    hashes
+}
+
+#[test]
+fn every_step_that_is_sought_is_what_it_was_and_goes_on_as_it_did() {
+    let mut stage = stage();
+    let mut timeline = Timeline::new(&mut stage).unwrap();
+    let hashes = run(&mut stage, &mut timeline, 120, &[(20, gain(0.5)), (60, gain(2.0))]);
+    for step in [119, 61, 60, 21, 20, 1] {
+        timeline.seek(&mut stage, step).unwrap();
+        assert_eq!((stage.frame().step, stage.hash()), (step, hashes[step as usize - 1]));
+        assert!(run(&mut stage, &mut timeline, 120, &[]) == hashes[step as usize..], "on from {step}");
+        assert_eq!(timeline.takes().len(), 1, "nothing was changed");
+    }
+    timeline.seek(&mut stage, 0).unwrap();
+    assert_eq!(stage.frame().step, 0);
+}
+
+#[test]
+fn what_if_is_another_take_and_the_first_is_kept() {
+    let mut stage = stage();
+    let mut timeline = Timeline::new(&mut stage).unwrap();
+    let first = run(&mut stage, &mut timeline, 120, &[(20, gain(0.5)), (60, gain(2.0))]);
+    let other = timeline.what_if(&mut stage, 40).unwrap();
+    assert_eq!((other, timeline.present()), (1, 1));
+    assert_eq!(stage.hash(), first[39]);
+    let second = run(&mut stage, &mut timeline, 150, &[(50, gain(0.1))]);
+    assert_ne!(second[79], first[119]);
+    // Without the command of step 60: what was prescribed no longer is.
+    let commands = |take: usize| timeline.takes()[take].commands().iter().map(|one| one.step).collect::<Vec<_>>();
+    assert_eq!((commands(0), commands(1)), (vec![20, 60], vec![20, 50]));
+    assert_eq!(timeline.takes()[1].from(), Some((0, 40)));
+    // Both can be gone to, each with its own hashes.
+    timeline.go_to(&mut stage, 0, 120).unwrap();
+    assert_eq!(stage.hash(), first[119]);
+    timeline.go_to(&mut stage, 1, 150).unwrap();
+    assert_eq!(stage.hash(), second[109]);
+}
+
+#[test]
+fn a_command_in_the_middle_of_what_is_known_begins_a_take_that_keeps_what_follows() {
+    let mut stage = stage();
+    let mut timeline = Timeline::new(&mut stage).unwrap();
+    let first = run(&mut stage, &mut timeline, 100, &[(60, gain(2.0))]);
+    timeline.seek(&mut stage, 30).unwrap();
+    run(&mut stage, &mut timeline, 100, &[(40, gain(0.3))]);
+    assert_eq!(timeline.takes()[1].from(), Some((0, 40)));
+    assert_eq!(timeline.takes()[1].commands().iter().map(|one| one.step).collect::<Vec<_>>(), [40, 60]);
+    assert_ne!(stage.hash(), first[99]);
+    timeline.go_to(&mut stage, 0, 100).unwrap();
+    assert_eq!(stage.hash(), first[99]);
+}
+
+#[test]
+fn what_is_not_known_is_an_error_and_changes_nothing() {
+    let mut stage = stage();
+    let mut timeline = Timeline::new(&mut stage).unwrap();
+    run(&mut stage, &mut timeline, 10, &[]);
+    let hash = stage.hash();
+    assert!(matches!(timeline.seek(&mut stage, 11), Err(SeekError::Beyond { take: 0, step: 11, known: 10 })));
+    assert!(matches!(timeline.go_to(&mut stage, 1, 0), Err(SeekError::NoTake { take: 1, count: 1 })));
+    assert_eq!(stage.hash(), hash);
+    assert!(matches!(Timeline::new(&mut stage), Err(SeekError::BegunLate { step: 10 })));
+    stage.step();
+    stage.step();
+    assert!(matches!(timeline.watch(&stage), Err(SeekError::NotWatched { step: 12, seen: 10 })));
+}
+
+#[test]
+fn a_runner_goes_back_with_its_motion_and_its_take() {
+    let mut runner = Runner::new(stage()).with_motion().with_take().with_timeline().unwrap();
+    runner.run(480, &mut []);
+    let whole = runner.take().unwrap();
+    runner.seek(240).unwrap();
+    assert_eq!(runner.recording().unwrap().frames, 61, "a second at 60 Hz, and the start");
+    assert_eq!(runner.take().unwrap().trace.unwrap().hashes, whole.trace.as_ref().unwrap().hashes[..1]);
+    runner.run(480, &mut []);
+    assert_eq!(runner.take().unwrap(), whole);
+    assert_eq!(runner.what_if(240).unwrap(), 1);
+    runner.stage_mut().command(gain(0.2));
+    runner.run(480, &mut []);
+    let other = runner.take().unwrap();
+    assert_ne!(other.hash, whole.hash);
+    assert_eq!((other.commands.len(), runner.recording().unwrap().frames), (1, 121));
+    assert!(matches!(Runner::new(stage()).seek(0), Err(SeekError::NoTimeline)));
+}
