@@ -4,7 +4,7 @@
 //! Build both sides for the machine: `RUSTFLAGS="-C target-cpu=native" cargo bench -p sinew-body --features lanes`.
 //! Like the peers' programs each call takes another of 64 random states.
 
-#[path = "../tests/dynamics_common/mod.rs"]
+#[path = "../tests/all/dynamics_common/mod.rs"]
 mod dynamics_common;
 
 use std::hint::black_box;

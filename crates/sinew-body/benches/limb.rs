@@ -8,37 +8,17 @@
 //! With ozz-animation's two-bone job (single precision, the swivel given, no limits; timed on the same machine when idle) as 1: `direct` 1.9, `searched`
 //! 3.2 (arm) and 4.5 (leg), `turned` 8.5 and 6.7, `outside` 15.
 
+#[path = "../tests/all/limb_random.rs"]
+mod limb_random;
+
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::{DQuat, DVec3};
+use limb_random::Random;
 use sinew_body::humanoid::{Body, Limb, LimbGoal, Limit, exp, solve_limb, solve_limb_turned};
 
 const CASES: usize = 64;
-
-/// A plain generator of numbers (Numerical Recipes' constants).
-struct Dice(u64);
-
-impl Dice {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-    }
-
-    fn turn(&mut self) -> DQuat {
-        exp(DVec3::new(self.between(-2.0, 2.0), self.between(-2.0, 2.0), self.between(-2.0, 2.0)))
-    }
-
-    fn within(&mut self, limit: &Limit) -> DQuat {
-        loop {
-            let swing = DVec3::new(self.between(-2.5, 2.5), 0.0, self.between(-2.5, 2.5));
-            let turn = limit.centre * exp(swing) * exp(DVec3::Y * self.between(limit.twist.0, limit.twist.1));
-            if limit.excess(turn) <= 0.0 {
-                return turn;
-            }
-        }
-    }
-}
 
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
@@ -48,17 +28,17 @@ enum Kind {
 }
 
 /// A goal of any kind, and which kind it turned out to be.
-fn any_goal(body: &Body, limb: Limb, dice: &mut Dice) -> (LimbGoal, Kind) {
+fn any_goal(body: &Body, limb: Limb, random: &mut Random) -> (LimbGoal, Kind) {
     let [upper, lower, end] = limb.nodes();
     let sign = if limb.is_leg() { 1.0 } else { -1.0 };
-    let flexed = |dice: &mut Dice| exp(DVec3::X * sign * dice.between(0.4, 2.3));
-    let world_from_parent = dice.turn();
+    let flexed = |random: &mut Random| exp(DVec3::X * sign * random.between(0.4, 2.3));
+    let world_from_parent = random.rotation();
     let joint = DVec3::new(0.2, 1.4, 0.0);
     let effector = body.link(end).centre;
-    let near = [dice.within(&body.link(upper).limit), flexed(dice)];
-    let direction = dice.turn() * DVec3::X;
+    let near = [random.within(&body.link(upper).limit, true), flexed(random)];
+    let direction = random.rotation() * DVec3::X;
     let in_lower = body.link(end).offset + effector;
-    let there = body.link(lower).offset + flexed(dice) * in_lower;
+    let there = body.link(lower).offset + flexed(random) * in_lower;
     let goal = LimbGoal {
         joint,
         world_from_parent,
@@ -81,10 +61,10 @@ fn any_goal(body: &Body, limb: Limb, dice: &mut Dice) -> (LimbGoal, Kind) {
 }
 
 fn goals(body: &Body, limb: Limb, wanted: Kind) -> Vec<LimbGoal> {
-    let mut dice = Dice(5);
+    let mut random = Random(5);
     let mut goals = Vec::new();
     while goals.len() < CASES {
-        let (goal, kind) = any_goal(body, limb, &mut dice);
+        let (goal, kind) = any_goal(body, limb, &mut random);
         if kind == wanted {
             goals.push(goal);
         }
@@ -94,15 +74,15 @@ fn goals(body: &Body, limb: Limb, wanted: Kind) -> Vec<LimbGoal> {
 
 /// Hands and feet where the limb can have them, the limb anywhere before.
 fn turned_goals(body: &Body, limb: Limb) -> Vec<(LimbGoal, DQuat)> {
-    let mut dice = Dice(6);
+    let mut random = Random(6);
     let [upper, lower, end] = limb.nodes();
     let sign = if limb.is_leg() { 1.0 } else { -1.0 };
     (0..CASES)
         .map(|_| {
-            let (goal, _) = any_goal(body, limb, &mut dice);
-            let turn = dice.within(&body.link(upper).limit);
-            let elbow = turn * exp(DVec3::X * sign * dice.between(0.4, 2.3));
-            let hand = elbow * dice.within(&body.link(end).limit);
+            let (goal, _) = any_goal(body, limb, &mut random);
+            let turn = random.within(&body.link(upper).limit, true);
+            let elbow = turn * exp(DVec3::X * sign * random.between(0.4, 2.3));
+            let hand = elbow * random.within(&body.link(end).limit, true);
             let offsets = (body.link(lower).offset, body.link(end).offset);
             let line = turn * offsets.0 + elbow * offsets.1 + hand * goal.effector;
             let target = goal.joint + goal.world_from_parent * line;

@@ -22,5 +22,9 @@
 //!
 //! What it does not do: time stepping, worlds, files.
 
+// Unit tests share helpers with the integration tests, which know this crate by its name.
+#[cfg(test)]
+extern crate self as sinew_body;
+
 pub mod dynamics;
 pub mod humanoid;

@@ -161,11 +161,13 @@ impl Out {
     }
 
     /// Whether anything is asked for that needs the motion.
+    #[cfg(feature = "session")]
     pub(crate) fn needs_motion(&self) -> bool {
         !self.files.motions.is_empty() || self.files.picture.is_some()
     }
 
     /// Where results go.
+    #[cfg(feature = "session")]
     pub(crate) fn files(&self) -> &Files {
         &self.files
     }

@@ -3,13 +3,10 @@
 
 #[path = "command/command.rs"]
 mod command;
-// The captured clips are found as the claims find them.
-#[path = "../../sinew/tests/common/mod.rs"]
-mod common;
 
 use command::sinew;
-use common::{EVERY_CLIP, mocap, none_of, work};
 use serde_json::Value;
+use sinew_testkit::{EVERY_CLIP, mocap, none_of, work};
 
 #[test]
 fn inspect_json_has_the_promised_keys_on_every_file() {

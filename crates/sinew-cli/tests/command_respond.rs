@@ -3,15 +3,13 @@
 
 #[path = "command/command.rs"]
 mod command;
-// The captured clips are found as the claims find them.
-#[path = "../../sinew/tests/common/mod.rs"]
-mod common;
 #[path = "command/reach.rs"]
 mod reach;
 
 use command::{Ran, json, sinew};
-use common::{mocap, read};
 use serde_json::Value;
+use sinew::motion::formats::{MotionFile, ReadOptions};
+use sinew_testkit::mocap;
 use std::path::{Path, PathBuf};
 
 const PUSH: &str = "part=leftHand,force=0:0:-100,at=2.0,for=0.1";
@@ -20,6 +18,11 @@ const PUSH: &str = "part=leftHand,force=0:0:-100,at=2.0,for=0.1";
 fn place() -> Option<(tempfile::TempDir, PathBuf)> {
     let mocap = mocap()?;
     Some((tempfile::tempdir().unwrap(), mocap.join("cmu_bvh_60hz_trimmed/35_01_walk.bvh")))
+}
+
+/// Reads a motion file as a user would.
+fn read(path: &Path) -> MotionFile {
+    MotionFile::read(path, &ReadOptions::default()).unwrap()
 }
 
 /// `sinew respond CLIP`, then words separated by blanks.

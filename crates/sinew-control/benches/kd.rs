@@ -5,7 +5,7 @@
 
 #![allow(missing_docs, reason = "criterion's own items have no documentation")]
 
-#[path = "../tests/performer/mod.rs"]
+#[path = "../tests/all/performer/mod.rs"]
 mod performer;
 
 use criterion::{Criterion, criterion_group, criterion_main};

@@ -6,7 +6,7 @@
 //! Set in the environment: `KG` and `M` (the body), `POSE` (`knees`, `stride`, `guard`), `CHEST=1` (push there instead of on the
 //! hips), `VIEW` (`side`, `front`), `SECS` (how long a push is shown).
 
-#[path = "../tests/pushed/mod.rs"]
+#[path = "../tests/all/pushed/mod.rs"]
 mod pushed;
 
 use glam::DVec3;

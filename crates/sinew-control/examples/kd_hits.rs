@@ -2,13 +2,14 @@
 //! `cargo run -p sinew-control --example kd_hits`, with the name of a preset for another than `default`,
 //! and `rigid` for a trunk that does not give way.
 
-#[path = "../tests/performer/mod.rs"]
+#[path = "../tests/all/performer/mod.rs"]
 mod performer;
 
 use glam::DVec3;
-use performer::{Hit, Performer, mocap, standing};
+use performer::{Hit, Performer, standing};
 use sinew_body::humanoid::Node;
 use sinew_control::tracker::{KdPreset, KdSettings};
+use sinew_testkit::mocap;
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();

@@ -2,11 +2,12 @@
 //! `SINEW_SHARED=... cargo run -p sinew-control --example kd_table`. Add `default` for that preset alone, `02_01` for that clip, `absolute` for the damping
 //! as the paper prints it.
 
-#[path = "../tests/performer/mod.rs"]
+#[path = "../tests/all/performer/mod.rs"]
 mod performer;
 
-use performer::{BASKETBALL, BOXING, Following, Performer, RUNS, WALKS, mocap};
+use performer::{BASKETBALL, BOXING, Following, Performer, RUNS, WALKS};
 use sinew_control::tracker::{KdDamping, KdPreset, KdSettings};
+use sinew_testkit::mocap;
 
 fn main() {
     let Some(folder) = mocap() else { return };

@@ -1,7 +1,7 @@
 //! Filmstrips of the sample walk in a world: `cargo run -p sinew-control --example responding_walk -- ball ball.png`, and so on for
 //! `platform`, `cup` and `post`.
 
-#[path = "../tests/walker/mod.rs"]
+#[path = "../tests/all/walker/mod.rs"]
 mod walker;
 
 use glam::DVec3;

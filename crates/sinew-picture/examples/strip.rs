@@ -2,7 +2,7 @@
 //!
 //! What it does not do: the walker is made of sines, not of physics.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use sinew_picture::{Camera, Filmstrip, Limit, Mark, Plot, Series, Sheet};

@@ -4,7 +4,7 @@
 //! What it does not do: it says nothing about fingers, and only two of the clips were made for reaching.
 #![allow(missing_docs, reason = "an example")]
 
-#[path = "../tests/captured/mod.rs"]
+#[path = "../tests/all/captured/mod.rs"]
 mod captured;
 
 use captured::{Compared, compare};

@@ -3,7 +3,7 @@
 //! instants a second. The test `targets.rs` makes the same checks on a few hundred.
 #![allow(missing_docs, reason = "an example")]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use common::{any_target, bodies, goal, jump, measure, reacher};

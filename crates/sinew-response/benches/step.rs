@@ -7,7 +7,7 @@
 //!
 //! Build both sides for the machine: `RUSTFLAGS="-C target-cpu=native" cargo bench -p sinew-response`.
 
-#[path = "../../sinew-body/tests/dynamics_common/mod.rs"]
+#[path = "../../sinew-body/tests/all/dynamics_common/mod.rs"]
 mod dynamics_common;
 
 use std::hint::black_box;

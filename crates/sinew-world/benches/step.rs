@@ -3,7 +3,7 @@
 //! The worlds run on while they are timed, each in a state that lasts: falls begin again, piles are stirred.
 //! Build for the machine to compare with the peers: `RUSTFLAGS="-C target-cpu=native" cargo bench -p sinew-world`.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use common::{adult, hold, lifted, odd_pose, spec, standing};

@@ -2,7 +2,7 @@
 //!
 //! Look for limbs that pass through each other, knees and elbows bent backward, parts that hang in the air.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/all/common/mod.rs"]
 mod common;
 
 use common::{adult, lifted, odd_pose, spec, standing, supine};

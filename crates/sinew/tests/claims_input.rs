@@ -1,72 +1,22 @@
-//! Without a disturbance the output is the input; and what the response does not move stays as it is.
+//! A file without a disturbance is written as it was; and what the response does not move stays as it is.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
+#[path = "../../sinew-response/tests/all/pushing/case.rs"]
+mod case;
 
-use common::{Case, EVERY_CLIP, PERSON, every_bvh, mocap, none_of, read, work};
-use sinew::body::humanoid::{Node, Pose, log};
+use case::{Case, PERSON};
+use sinew::body::humanoid::Node;
 use sinew::figure::body_shapes;
 use sinew::jobs::respond::{Answer, RespondJob, respond};
+use sinew::motion::formats::{MotionFile, ReadOptions};
 use sinew::motion::{Clip, Part};
 use sinew::response::{Disturbances, Push, PushFrame, Settings, Track};
+use sinew_testkit::{EVERY_CLIP, WALKS, every_bvh, mocap, none_of, work};
 use std::path::Path;
 
-/// The largest angle between two runs [rad].
-fn largest_angle(ours: &[Pose], theirs: &[Pose]) -> f64 {
-    let angle = |ours: &Pose, theirs: &Pose, node| log(theirs.local(node).conjugate() * ours.local(node)).length();
-    ours.iter()
-        .zip(theirs)
-        .flat_map(|(ours, theirs)| Node::ALL.map(|node| angle(ours, theirs, node)))
-        .fold(0.0, |largest, angle| if angle > largest || angle.is_nan() { angle } else { largest })
-}
-
-#[test]
-fn without_a_push_the_output_is_the_input_on_every_clip() {
-    let Some(mocap) = mocap() else { return };
-    let failures: Vec<String> = work(&EVERY_CLIP, |name| {
-        let case = Case::load(&mocap, name, 8.0);
-        let (settings, input) = (case.stable(Settings::default()), case.motion.poses());
-        let track = Track::run(&case.body, &case.basis(&settings), &settings, &case.motion, Disturbances::default());
-        let angle = largest_angle(track.poses(), input).to_degrees();
-        let residual = track.reports().iter().map(|report| report.residual_n_m).fold(0.0, f64::max);
-        // Torques here reach a hundred newton metres: this is their last digits.
-        let good = angle < 1e-3 && residual < 1e-6 && track.poses().len() == input.len();
-        (!good).then(|| format!("{name}: {angle:e} degrees, residual {residual:e} N m"))
-    })
-    .into_iter()
-    .flatten()
-    .collect();
-    none_of(EVERY_CLIP.len(), &failures);
-}
-
-/// Without a push the response computes the same torque twice, so that its residual is 0 to the last bit, as if nobody
-/// had solved. Under a nanonewton, which nothing that looks for pushes could mistake for one, it is not: the solver runs
-/// in every frame, and what it finds is the input.
-#[test]
-fn the_solver_runs_without_a_push_too_as_its_residual_shows() {
-    let Some(mocap) = mocap() else { return };
-    let failures: Vec<String> = work(&EVERY_CLIP, |name| {
-        let case = Case::load(&mocap, name, 3.0);
-        let (settings, input) = (case.stable(Settings::default()), case.motion.poses());
-        let nothing = Push {
-            part: Part::Head,
-            force_n: glam::DVec3::new(1e-9, 0.0, 0.0),
-            at_secs: 0.0,
-            for_secs: 1e6,
-            ..hand_push(0.0)
-        };
-        let happens = Disturbances { pushes: &[nothing], ground: &[] };
-        let track = Track::run(&case.body, &case.basis(&settings), &settings, &case.motion, happens);
-        let angle = largest_angle(track.poses(), input).to_degrees();
-        let residuals = || track.reports()[1..].iter().map(|report| report.residual_n_m);
-        let (least, most) = (residuals().fold(f64::INFINITY, f64::min), residuals().fold(0.0, f64::max));
-        let good = angle < 1e-3 && least > 0.0 && most < 1e-6;
-        (!good).then(|| format!("{name}: {angle:e} degrees, residual {least:e} to {most:e} N m"))
-    })
-    .into_iter()
-    .flatten()
-    .collect();
-    none_of(EVERY_CLIP.len(), &failures);
+/// Reads a motion file as a user would.
+fn read(path: &Path) -> MotionFile {
+    MotionFile::read(path, &ReadOptions::default()).unwrap()
 }
 
 fn job(pushes: Vec<Push>) -> RespondJob {
@@ -230,7 +180,7 @@ fn the_whole_job_and_a_single_run_of_the_response_agree_bit_for_bit() {
 #[test]
 fn on_the_files_own_skeleton_stance_ankles_stay_within_a_millimetre_too() {
     let Some(mocap) = mocap() else { return };
-    let failures: Vec<String> = work(&common::WALKS, |name| {
+    let failures: Vec<String> = work(&WALKS, |name| {
         let file = read(&mocap.join(name));
         [Part::LeftHand, Part::Head, Part::Chest].map(|part| {
             let pushes =
@@ -250,7 +200,7 @@ fn on_the_files_own_skeleton_stance_ankles_stay_within_a_millimetre_too() {
     .flatten()
     .flatten()
     .collect();
-    none_of(3 * common::WALKS.len(), &failures);
+    none_of(3 * WALKS.len(), &failures);
 }
 
 #[test]

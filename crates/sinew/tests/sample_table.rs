@@ -3,20 +3,6 @@
 #[path = "../examples/measure_walk.rs"]
 mod measure_walk;
 
-use std::path::{Path, PathBuf};
-
-fn mocap() -> Option<PathBuf> {
-    let shared = std::env::var_os("SINEW_SHARED")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
-    let mocap = shared.join("mocap");
-    if mocap.is_dir() {
-        return Some(mocap);
-    }
-    assert!(std::env::var_os("SINEW_REQUIRE_SHARED").is_none(), "no {}", mocap.display());
-    eprintln!("SKIPPED: needs the shared folder, set SINEW_SHARED");
-    None
-}
-
 fn rows(text: &str) -> Vec<Vec<f64>> {
     text.lines()
         .filter_map(|line| line.trim().strip_prefix('[')?.strip_suffix("],"))
@@ -26,7 +12,7 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
 
 #[test]
 fn the_table_holds_what_the_program_measures() {
-    let Some(mocap) = mocap() else { return };
+    let Some(mocap) = sinew_testkit::mocap() else { return };
     let measured = rows(&measure_walk::table(&mocap).unwrap());
     let kept = rows(include_str!("../src/sample/walk_table.rs"));
     assert_eq!((measured.len(), kept.len()), (33, 33));

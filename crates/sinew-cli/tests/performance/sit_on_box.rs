@@ -1,9 +1,5 @@
 //! The support moves from the ground to a box and back, which Nguyen et al. 2010, section 7, name as what their system cannot do.
 
-#[path = "../../../sinew/tests/common/files.rs"]
-#[allow(dead_code, reason = "other tests use the rest")]
-mod files;
-
 use crate::stage::{borne, centre, character, lower_ankle_m, of, prop, shipped, until};
 use glam::DVec3;
 use sinew::body::humanoid::Node;
@@ -50,7 +46,7 @@ fn the_box_bears_who_sits_on_it_and_the_ground_who_stands() {
 /// The clip is a woman who sits down on a stool and rises; the stool is put where she sits.
 #[test]
 fn a_captured_performer_sits_down_on_a_box_and_it_bears_her() {
-    let Some(mocap) = files::mocap() else { return };
+    let Some(mocap) = sinew_testkit::mocap() else { return };
     let clip = std::fs::read(mocap.join("cmu_bvh_60hz_trimmed/113_15_sit.bvh")).unwrap();
     let text = |tracker: &str, more: &str| {
         format!(

@@ -174,5 +174,10 @@ impl LimbGoal {
     }
 }
 
+// The generator of the integration tests: its `sinew_body` is this crate, see `lib.rs`.
+#[cfg(test)]
+#[path = "../../../tests/all/limb_random.rs"]
+mod limb_random;
+
 #[cfg(test)]
 mod tests;

@@ -1,21 +1,9 @@
 #![allow(clippy::disallowed_methods, reason = "tests may use the platform's mathematics")]
 
+use super::super::limb_random::Random;
 use super::*;
 use crate::humanoid::{Limit, Node, exp};
-use glam::{DQuat, DVec3};
-
-struct Dice(u64);
-
-impl Dice {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-    }
-
-    fn turn(&mut self) -> DQuat {
-        exp(DVec3::new(self.between(-2.0, 2.0), self.between(-2.0, 2.0), self.between(-2.0, 2.0)))
-    }
-}
+use glam::DVec3;
 
 /// Steps of a search all round: a twentieth of a degree.
 const FINE: i32 = 3600;
@@ -35,11 +23,11 @@ fn limits() -> [Limit; 4] {
 
 #[test]
 fn the_nearest_swivel_inside_is_the_one_that_a_fine_search_finds() {
-    let mut dice = Dice(5);
+    let mut random = Random(5);
     for (index, limit) in limits().iter().enumerate() {
         let mut found = 0;
         for _ in 0..1500 {
-            let (turn, axis) = (dice.turn(), dice.turn() * DVec3::X);
+            let (turn, axis) = (random.rotation(), random.rotation() * DVec3::X);
             let excess = |angle: f64| limit.excess((exp(axis * angle) * turn).normalize());
             let sweep = Sweep::new(limit.centre.conjugate(), axis, turn, &limit.swing, limit.twist);
             let searched = fine().filter(|&angle| excess(angle) <= 0.0).min_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -65,11 +53,11 @@ fn the_nearest_swivel_inside_is_the_one_that_a_fine_search_finds() {
 
 #[test]
 fn where_no_swivel_is_inside_the_one_taken_is_about_the_least_outside() {
-    let mut dice = Dice(6);
+    let mut random = Random(6);
     for (index, limit) in limits().iter().enumerate().take(3) {
         let (mut cases, mut worse) = (0, 0);
         for _ in 0..1000 {
-            let (turn, axis) = (dice.turn(), dice.turn() * DVec3::X);
+            let (turn, axis) = (random.rotation(), random.rotation() * DVec3::X);
             let cost = |angle: f64| limit.excess((exp(axis * angle) * turn).normalize()) + PRICE * angle.abs();
             let sweep = Sweep::new(limit.centre.conjugate(), axis, turn, &limit.swing, limit.twist);
             if nearest(&[sweep]).is_some() {

@@ -1,35 +1,10 @@
 #![allow(clippy::disallowed_methods, reason = "tests may use the platform's mathematics")]
 
 use super::hinge::EXACT_REACH;
+use super::limb_random::Random;
 use super::*;
 use crate::humanoid::Pose;
-use crate::humanoid::{Limit, exp};
-
-/// A plain generator of numbers (Numerical Recipes' constants), so that a failure can be had again.
-struct Dice(u64);
-
-impl Dice {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-    }
-
-    /// A turn inside a limit.
-    fn within(&mut self, limit: &Limit) -> DQuat {
-        loop {
-            let swing = DVec3::new(self.between(-2.5, 2.5), 0.0, self.between(-2.5, 2.5));
-            let twist = DVec3::Y * self.between(limit.twist.0, limit.twist.1);
-            let turn = limit.centre * exp(swing) * exp(twist);
-            if limit.excess(turn) <= 0.0 {
-                return turn;
-            }
-        }
-    }
-
-    fn turn(&mut self) -> DQuat {
-        exp(DVec3::new(self.between(-2.0, 2.0), self.between(-2.0, 2.0), self.between(-2.0, 2.0)))
-    }
-}
+use crate::humanoid::exp;
 
 /// Where a limb's effector is, by the body's own forward kinematics.
 fn forward(body: &Body, limb: Limb, base: &Pose, upper: DQuat, lower: DQuat, end: DQuat, effector: DVec3) -> DVec3 {
@@ -55,31 +30,31 @@ fn goal(body: &Body, limb: Limb, base: &Pose, target: DVec3) -> LimbGoal {
 }
 
 /// A body somewhere, turned as a whole.
-fn base(dice: &mut Dice) -> Pose {
+fn base(random: &mut Random) -> Pose {
     let mut locals = [DQuat::IDENTITY; Node::COUNT];
-    locals[0] = dice.turn();
-    Pose::from_locals(DVec3::new(dice.between(-5.0, 5.0), 1.0, dice.between(-5.0, 5.0)), &locals)
+    locals[0] = random.rotation();
+    Pose::from_locals(DVec3::new(random.between(-5.0, 5.0), 1.0, random.between(-5.0, 5.0)), &locals)
 }
 
 #[test]
 fn ten_thousand_targets_that_a_limb_can_have_are_met_within_the_limits() {
-    let mut dice = Dice(7);
+    let mut random = Random(7);
     let body = Body::standard(80.0, 1.7);
     let (mut solved, mut stretched) = (0, 0);
     while solved < 10_000 {
         let limb = Limb::ALL[solved % 4];
         let [upper, lower, end] = limb.nodes();
-        let base = base(&mut dice);
+        let base = base(&mut random);
         // Wrists turn; feet point along their own line, as a bent ankle changes the plane in which the knee has to lie.
-        let end_turn = if limb.is_leg() { DQuat::IDENTITY } else { dice.within(&body.link(end).limit) };
+        let end_turn = if limb.is_leg() { DQuat::IDENTITY } else { random.within(&body.link(end).limit, true) };
         let effector = if limb.is_leg() { DVec3::ZERO } else { body.link(end).centre };
         let (flexion, twist) = if limb.is_leg() {
-            (dice.between(0.0, 2.6), 0.0)
+            (random.between(0.0, 2.6), 0.0)
         } else {
-            (dice.between(-2.6, 0.0), dice.between(-1.7, 1.7))
+            (random.between(-2.6, 0.0), random.between(-1.7, 1.7))
         };
         let lower_turn = exp(DVec3::X * flexion) * exp(DVec3::Y * twist);
-        let upper_turn = dice.within(&body.link(upper).limit);
+        let upper_turn = random.within(&body.link(upper).limit, true);
         let target = forward(&body, limb, &base, upper_turn, lower_turn, end_turn, effector);
         let near = [DQuat::IDENTITY, exp(DVec3::Y * twist)];
         let goal = LimbGoal { end: end_turn, effector, near, ..goal(&body, limb, &base, target) };
@@ -131,13 +106,13 @@ fn a_limb_that_follows_a_path_never_flips() {
 
 #[test]
 fn a_limb_points_at_what_it_cannot_reach() {
-    let mut dice = Dice(3);
+    let mut random = Random(3);
     let body = Body::standard(60.0, 1.6);
     for _ in 0..200 {
-        let base = base(&mut dice);
+        let base = base(&mut random);
         for limb in Limb::ALL {
             let mut goal = goal(&body, limb, &base, DVec3::ZERO);
-            let away = (dice.turn() * DVec3::X) * dice.between(1.5, 30.0);
+            let away = (random.rotation() * DVec3::X) * random.between(1.5, 30.0);
             goal.target = goal.joint + away;
             let turns = solve_limb(&body, limb, &goal).unwrap();
             let end = forward(&body, limb, &base, turns.upper, turns.lower, goal.end, goal.effector);
@@ -153,10 +128,11 @@ fn a_limb_points_at_what_it_cannot_reach() {
 #[test]
 fn a_limb_already_there_stays_where_it_is() {
     let body = Body::standard(80.0, 1.7);
-    let mut dice = Dice(11);
+    let mut random = Random(11);
     for _ in 0..100 {
-        let base = base(&mut dice);
-        let near = [dice.within(&body.link(Node::LeftUpperArm).limit), exp(DVec3::X * dice.between(-2.0, -0.4))];
+        let base = base(&mut random);
+        let near =
+            [random.within(&body.link(Node::LeftUpperArm).limit, true), exp(DVec3::X * random.between(-2.0, -0.4))];
         let mut goal = goal(&body, Limb::LeftArm, &base, DVec3::ZERO);
         goal.near = near;
         goal.target = forward(&body, Limb::LeftArm, &base, near[0], near[1], goal.end, goal.effector);

@@ -1,0 +1,14 @@
+//! Everything that `sinew-body` is held to, as one program.
+
+mod dynamics_agreement;
+mod dynamics_allocation;
+mod dynamics_common;
+mod dynamics_lanes;
+mod dynamics_vectors;
+mod limb_random;
+mod limb_targets;
+
+use sinew_testkit::CountingAllocator;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;

@@ -1,0 +1,5 @@
+//! Everything that `sinew-picture` is held to, as one program.
+
+mod common;
+mod odd_input;
+mod pictures;

@@ -1,0 +1,11 @@
+//! Everything that `sinew-reach` is held to, as one program.
+
+mod captured;
+mod changes;
+mod choices;
+mod common;
+mod equations;
+mod from_walk;
+mod people;
+mod snapshots;
+mod targets;

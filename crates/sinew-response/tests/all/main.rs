@@ -1,0 +1,15 @@
+//! Everything that `sinew-response` is held to, as one program.
+
+mod claims_compliance;
+mod claims_input;
+mod claims_live;
+mod claims_presets;
+mod claims_recovery;
+mod pushing;
+mod snapshots;
+mod steps;
+
+use sinew_testkit::CountingAllocator;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;

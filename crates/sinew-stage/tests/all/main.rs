@@ -1,0 +1,11 @@
+//! Everything that `sinew-stage` is held to, as one program.
+
+mod hostile;
+mod live;
+mod runner;
+mod scene_errors;
+mod scene_sets;
+mod scenes_page;
+mod schema;
+mod stage;
+mod takes;

@@ -1,0 +1,13 @@
+//! Everything that `sinew-world` is held to, as one program.
+
+mod check;
+mod common;
+mod contacts;
+mod determinism;
+mod falls;
+mod flight;
+mod holds;
+mod hostile;
+mod meter;
+mod prop_joints;
+mod springs;
