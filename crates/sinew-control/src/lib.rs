@@ -1,4 +1,4 @@
-//! What drives a body in a world.
+//! What drives a body in a world: [`source`]s say what is wanted, [`tracker`]s make the body follow it.
 //!
 //! ```
 //! use glam::DVec3;
@@ -24,6 +24,7 @@
 //! What it does not do: scenes, sockets, running Python.
 
 mod command;
+mod free_root;
 pub mod graph;
 pub mod ik;
 mod order_error;
@@ -31,12 +32,14 @@ pub mod perform;
 pub mod pose;
 mod reach_order;
 pub mod reflex;
-mod target;
+pub mod source;
 pub mod tracker;
+mod wanted;
 
 pub use command::{Action, Command, Layer};
+pub use free_root::FreeRoot;
 pub use graph::GraphSpec;
 pub use order_error::{OrderError, OrderErrorKind};
 pub use pose::PoseSpec;
 pub use reach_order::{ReachHand, ReachOrder};
-pub use target::{JointTarget, Target};
+pub use wanted::{JointTarget, Root, Wanted};

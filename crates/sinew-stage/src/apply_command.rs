@@ -3,11 +3,13 @@
 use crate::Stage;
 use crate::event::{Cause, CharacterEffect, Effect, ShapeChoice};
 use crate::fade::Weighs;
-use crate::scene::TrackerKind;
-use crate::stage::step_of;
+use crate::heading::heading;
+use crate::step::step_of;
 use crate::timed_effect::{Expiry, LastingPush, MAX_PUSHES};
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use sinew_body::humanoid::Node;
+use sinew_control::source::NO_PERFORMER;
+use sinew_control::tracker::TrackerKind;
 use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 use sinew_world::{Entity, PartShape};
 
@@ -41,18 +43,20 @@ impl Stage {
         let who = self.cast.characters()[character].clone();
         let effect = match action {
             Action::Pose { name } => {
-                if !self.actors[character].aim(name)? {
+                if !self.actors[character].sources.aim(name)? {
                     // It aims there already: a script says so at every step.
                     return Ok(None);
                 }
                 CharacterEffect::Pose { pose: name.clone() }
             }
             Action::Graph { name, state } => {
-                self.actors[character].start_graph(name, state.as_deref())?;
+                self.actors[character].sources.start_graph(name, state.as_deref())?;
                 CharacterEffect::Graph { graph: name.clone() }
             }
             Action::Signal { name } => {
-                self.actors[character].signal(name);
+                if let Some(poses) = self.actors[character].sources.key_poses_mut() {
+                    poses.signal(name);
+                }
                 CharacterEffect::Signal { signal: name.clone() }
             }
             Action::Ik { link, target_m } => {
@@ -62,7 +66,8 @@ impl Stage {
                     None => self.holding_part(character).unwrap_or(Node::RightHand),
                 };
                 let effector = self.effector(character, limb);
-                if !self.actors[character].reach(limb, target, effector)? {
+                let poses = self.actors[character].sources.key_poses_mut().ok_or(NO_KEY_POSES)?;
+                if !poses.reach(limb, target, effector)? {
                     return Ok(None);
                 }
                 CharacterEffect::LimbReaches { node: limb, target }
@@ -72,14 +77,16 @@ impl Stage {
                 None => return Ok(None),
             },
             Action::ReachEnd {} => {
-                if !self.actors[character].end_reach(self.world.frame().time_secs) {
+                if !self.end_reach(character) {
                     return Ok(None);
                 }
                 CharacterEffect::ReachEnds
             }
             Action::IkRelease { link } => {
                 let limb = link.as_deref().map(|link| self.part(character, link)).transpose()?;
-                self.actors[character].stop_reaching(limb);
+                if let Some(poses) = self.actors[character].sources.key_poses_mut() {
+                    poses.stop_reaching(limb);
+                }
                 CharacterEffect::ReachEnds
             }
             Action::Attach { .. } | Action::Detach { .. } => return self.apply_grasp(character, action),
@@ -201,11 +208,12 @@ impl Stage {
             Action::Perform { sample } => {
                 // Many a second: what came of them is counted, not told.
                 let now_secs = self.world.frame().time_secs;
-                self.actors[character].performer()?.receive(sample, now_secs);
+                let performer = self.actors[character].sources.performer_mut().ok_or(NO_PERFORMER)?;
+                performer.source_mut().receive(sample, now_secs);
                 return Ok(None);
             }
             Action::Live { on } => {
-                self.actors[character].follow_performer(*on)?;
+                self.actors[character].sources.follow_performer(*on)?;
                 CharacterEffect::Live { on: *on }
             }
             Action::Reload { name, text } => return self.reload(name, text.as_deref()).map(Some),
@@ -349,11 +357,6 @@ impl Stage {
     }
 }
 
-/// The horizontal unit vector of a heading \[degrees about +Y from +Z to +X\].
-pub(crate) fn heading(degrees: f64) -> DVec3 {
-    DQuat::from_axis_angle(DVec3::Y, degrees.to_radians()) * DVec3::Z
-}
-
 pub(crate) fn number(value: f64, what: &str) -> Result<f64, String> {
     if value.is_finite() { Ok(value) } else { Err(format!("{what} is not a finite number")) }
 }
@@ -362,3 +365,6 @@ pub(crate) fn vector(value: [f64; 3], what: &str) -> Result<DVec3, String> {
     let vector = DVec3::from(value);
     if vector.is_finite() { Ok(vector) } else { Err(format!("{what} is not made of finite numbers")) }
 }
+
+/// Why a limb does not reach.
+const NO_KEY_POSES: &str = "it follows a motion, whose limbs have no IK; give it a pose first, or do = \"reach\"";

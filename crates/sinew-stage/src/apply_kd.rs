@@ -97,25 +97,16 @@ impl Stage {
         let kd = self.kd(character)?;
         let comes_on = on && !kd.has_pins();
         kd.set_pins(on, fade_secs);
-        if comes_on && !self.actors[character].moves_root() {
-            self.stand_here(character);
+        // A source that knows no place has the hips stand where they are now.
+        if let Some(frame) = self.world.frame().characters.get(character).filter(|_| comes_on) {
+            self.actors[character].sources.stand_where_it_is(frame);
         }
         Ok(())
     }
 
-    /// A source that knows no place has the hips stand where they are now.
-    pub(crate) fn stand_here(&mut self, character: usize) {
-        let Some(frame) = self.world.frame().characters.get(character) else { return };
-        let facing = frame.facing;
-        let turn = glam::DQuat::from_rotation_y(libm::atan2(facing.x, facing.z));
-        self.actors[character].stand = (frame.parts[0].position, turn);
-        self.actors[character].foot_lock.forget();
-    }
-
     fn kd(&mut self, character: usize) -> Result<&mut KdTracker, String> {
         self.actors[character]
-            .kd
-            .as_mut()
+            .tracker_as::<KdTracker>()
             .ok_or_else(|| "it does not follow by kd; give it tracker = \"kd\"".to_owned())
     }
 }

@@ -1,9 +1,8 @@
 //! The near-unactuated coordinates of a responding character: of its own clip, or the shipped walk's.
 
-use crate::MotionSource;
 use crate::motion_source::reduction;
 use crate::scene::CharacterSpec;
-use sinew_body::humanoid::Body;
+use sinew_body::humanoid::{Body, Pose};
 use sinew_motion::formats::{MotionFile, ReadOptions};
 use sinew_response::{Basis, Motion, Settings, stable_compliance};
 
@@ -16,13 +15,13 @@ const MAX_FRAMES: usize = 600;
 pub(crate) fn basis_for(
     spec: &CharacterSpec,
     body: &Body,
-    motion: Option<&MotionSource>,
+    motion: Option<&[Pose]>,
     frame_secs: f64,
 ) -> Result<(Basis, Settings), String> {
     let settings = Settings { time_step_secs: frame_secs, compliance: spec.response.compliance, ..Settings::default() };
     let (sample, poses);
     let poses = match motion {
-        Some(motion) => &motion.poses()[..motion.poses().len().min(MAX_FRAMES)],
+        Some(motion) => &motion[..motion.len().min(MAX_FRAMES)],
         None => {
             sample = MotionFile::from_bvh(SAMPLE_WALK, &ReadOptions::default()).map_err(|error| error.to_string())?;
             let reduction = reduction(&sample, spec)?;

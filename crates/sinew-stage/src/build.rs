@@ -2,21 +2,22 @@
 
 use crate::Stage;
 use crate::actor::Actor;
-use crate::apply_command::heading;
 use crate::cast::Cast;
 use crate::event::{Cause, Effect};
-use crate::motion_source::{self, MotionSource, Play};
-use crate::performance::Performance;
-use crate::scene::{CharacterSpec, RopeSpec, Scene, SourceSpec, TrackerKind};
+use crate::heading::heading;
+use crate::motion_source::{self, Play};
+use crate::scene::{CharacterSpec, RopeSpec, Scene, SourceSpec};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 use sinew_control::graph::{Graph, Touchable};
 use sinew_control::perform::LiveSource;
 use sinew_control::pose::{KeyPose, STAND, resolve_poses};
-use sinew_control::tracker::JointGain;
+use sinew_control::source::{ClipSource, Performer, PoseBook, Source};
+use sinew_control::tracker::{JointGain, TrackerKind};
 use sinew_control::{Layer, PoseSpec};
 use sinew_world::{Entity, PropJointKind, PropJointSpec, Surface, World, hips_over_soles_m};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Why a scene cannot be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -33,7 +34,7 @@ pub struct StageError {
 /// What reading a character's body gives.
 struct Cut {
     body: Body,
-    motion: Option<MotionSource>,
+    motion: Option<ClipSource>,
 }
 
 pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<Vec<Actor>, StageError> {
@@ -73,8 +74,12 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         if spec.spin_rad_s != [0.0; 3] {
             world.spin_character(index, spec.spin_rad_s.into());
         }
-        let mut actor = Actor::new(index, cut.body, poses, graphs, pose, &joints, world.settings().step_secs());
-        actor.motion = cut.motion;
+        let step_secs = world.settings().step_secs();
+        let book = Arc::new(PoseBook { poses, graphs });
+        let mut actor = Actor::new(index, &cut.body, book, pose, &start, &joints, step_secs);
+        if let Some(motion) = cut.motion {
+            actor.sources.follow(Box::new(motion));
+        }
         if let Some(source) = &spec.source
             && let Some(live) = &source.live
         {
@@ -86,7 +91,7 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
                 &start,
                 live.settings(),
             );
-            actor.performance = Some(Performance::of(source, has_understudy));
+            actor.sources.set_performer(Performer::new(source, has_understudy));
         }
         actors.push(actor);
     }
@@ -174,9 +179,9 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
             actor.set_layer(layer, spec.layers.contains(&layer));
         }
         match &spec.source {
-            Some(SourceSpec { pose: Some(pose), .. }) => actor.aim(pose).map(|_| ()).map_err(wrong)?,
+            Some(SourceSpec { pose: Some(pose), .. }) => actor.sources.aim(pose).map(|_| ()).map_err(wrong)?,
             Some(SourceSpec { graph: Some(graph), state, .. }) => {
-                actor.start_graph(graph, state.as_deref()).map_err(wrong)?;
+                actor.sources.start_graph(graph, state.as_deref()).map_err(wrong)?;
             }
             _ => {}
         }
@@ -234,7 +239,7 @@ fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
         other_reduction = motion_source::reduction(&other, spec)?;
         (&other, &other_reduction)
     };
-    let motion = MotionSource::of(
+    let motion = motion_source::clip_source(
         file,
         reduction,
         spec,
@@ -247,7 +252,7 @@ fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
             stands_on_floor: spec.tracker == TrackerKind::Kd,
         },
     )?;
-    for pose in motion.poses() {
+    for pose in motion.motion().unwrap_or_default() {
         body.widen_limits(pose);
     }
     Ok(Cut { body, motion: Some(motion) })

@@ -1,7 +1,7 @@
 //! Gravity that changes over a time: balloons that fill, characters that grow light.
 
 use crate::Stage;
-use crate::stage::step_of;
+use crate::step::step_of;
 use sinew_body::humanoid::Node;
 
 /// Something that gravity acts on.

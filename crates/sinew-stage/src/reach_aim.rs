@@ -3,38 +3,13 @@
 use crate::Stage;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
+use sinew_control::source::{Aimed, HANDS};
 use sinew_control::{ReachHand, ReachOrder};
-use sinew_reach::{Goal, Obstacle};
-use sinew_world::{BodyState, Entity, Form, Frame, Solid};
-
-/// Where a hand is to come.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Aimed {
-    Point(DVec3),
-    /// A prop's centre and how far from it, world \[m\].
-    Prop(usize, DVec3),
-    /// Where the centre of a prop is to come that the hand holds, world \[m\].
-    Held(usize, DVec3),
-}
+use sinew_reach::Obstacle;
+use sinew_world::{BodyState, Entity, Form, Solid};
 
 /// A hand's own thickness, between its centre and what it touches \[m\].
 const PALM_M: f64 = 0.035;
-
-/// Both hands' targets now.
-pub(crate) fn goal(aimed: &[Option<Aimed>; 2], frame: &Frame, character: usize) -> Goal {
-    let at = |side: usize| match aimed[side]? {
-        Aimed::Point(point) => Some(point),
-        Aimed::Prop(prop, offset) => Some(frame.props.get(prop)?.centre + offset),
-        Aimed::Held(prop, point) => {
-            let hand = frame.characters.get(character)?.part(HANDS[side]);
-            Some(point + (hand.centre - frame.props.get(prop)?.centre))
-        }
-    };
-    Goal { left: at(0), right: at(1) }
-}
-
-/// Left and right.
-pub(crate) const HANDS: [Node; 2] = [Node::LeftHand, Node::RightHand];
 
 impl Stage {
     /// Where each hand is to come.

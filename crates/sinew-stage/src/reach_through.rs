@@ -1,8 +1,9 @@
 //! Hands pass through what they reach for: they have no fingers to close around it, and would push it away, or be kept off it.
 
 use crate::Stage;
-use crate::reach_aim::{Aimed, HANDS, depth};
+use crate::reach_aim::depth;
 use crate::scene::PropSpec;
+use sinew_control::source::{Aimed, HANDS};
 use sinew_world::Entity;
 
 /// How far a hand's centre is from a prop's surface when it is clear of it \[m\]: more than half a hand.
@@ -23,9 +24,13 @@ impl Stage {
 
     /// Hands that reach for something else by now, or for nothing, push again what they are clear of.
     pub(crate) fn end_passing(&mut self, index: usize) {
+        if self.actors[index].through.is_empty() {
+            return;
+        }
         let mut through = std::mem::take(&mut self.actors[index].through);
         through.retain(|&(side, prop)| {
-            let stays = self.is_aimed(index, side, prop) || !self.is_clear(index, side, prop);
+            let is_aimed = self.actors[index].sources.reach().is_some_and(|reach| reach.is_aimed(side, prop));
+            let stays = is_aimed || !self.is_clear(index, side, prop);
             if !stays {
                 self.world.set_passes_prop(index, HANDS[side], prop, false);
             }

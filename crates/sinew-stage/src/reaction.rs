@@ -3,7 +3,7 @@
 use crate::cast::Cast;
 use crate::event::Cause;
 use crate::scene::Scene;
-use crate::stage::step_of;
+use crate::step::step_of;
 use sinew_control::Command;
 use sinew_control::graph::Touchable;
 use sinew_world::Frame;

@@ -21,7 +21,7 @@ pub(crate) fn names(scene: &Scene, cast: &Cast) -> Names {
         .joints
         .iter()
         .map(|(name, joint)| JointName { name: name.clone(), turns: joint.kind == JointKind::Hinge });
-    let trackers = crate::scene::TrackerKind::ALL.map(|kind| kind.name().to_owned());
+    let trackers = sinew_control::tracker::TrackerKind::ALL.map(|kind| kind.name().to_owned());
     Names {
         parts: Node::ALL.map(|node| node.part().name().to_owned()).to_vec(),
         characters: characters.collect(),

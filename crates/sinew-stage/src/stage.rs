@@ -11,6 +11,7 @@ use crate::reaction::Reactions;
 use crate::run_hash::RunHash;
 use crate::scene::Scene;
 use crate::scripts::Running;
+use crate::step::step_of;
 use crate::take::{self, Stamped};
 use crate::timed_effect::TimedEffects;
 use sinew_body::humanoid::Node;
@@ -292,9 +293,3 @@ impl Stage {
 
 /// Commands that may wait for a step.
 const MAX_INBOX: usize = 10_000;
-
-/// The step that begins at, or first after, a time.
-pub(crate) fn step_of(secs: f64, step_secs: f64) -> u64 {
-    // A time that is a whole number of steps but for rounding is that number.
-    (secs / step_secs - 1e-6).ceil().max(0.0) as u64
-}

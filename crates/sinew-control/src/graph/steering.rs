@@ -1,7 +1,7 @@
 //! What a state changes in its pose from how the body moves: balance feedback, upright parts, hips held in the world.
 
 use super::spec::{LegSide, TurnAxis};
-use crate::Target;
+use crate::Wanted;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, exp, swing_twist};
 use sinew_world::{CharacterFrame, Frame};
@@ -42,7 +42,7 @@ const MAX_TURN: f64 = 0.35;
 
 impl Steering {
     /// Changes a wanted pose that has been written. Feedback comes first, then parts measured in the world, then the hips.
-    pub fn apply(&self, frame: &Frame, own: usize, target: &mut Target) {
+    pub fn apply(&self, frame: &Frame, own: usize, target: &mut Wanted) {
         let Some(character) = frame.characters.get(own) else {
             return;
         };
@@ -59,7 +59,7 @@ impl Steering {
 }
 
 impl WorldHips {
-    fn apply(&self, character: &CharacterFrame, target: &mut Target) {
+    fn apply(&self, character: &CharacterFrame, target: &mut Wanted) {
         let (stance, swing) = match self.stance {
             LegSide::Left => (Node::LeftUpperLeg, Node::RightUpperLeg),
             LegSide::Right => (Node::RightUpperLeg, Node::LeftUpperLeg),
@@ -82,7 +82,7 @@ impl WorldHips {
 }
 
 impl Feedback {
-    fn apply(&self, character: &CharacterFrame, target: &mut Target) {
+    fn apply(&self, character: &CharacterFrame, target: &mut Wanted) {
         let arm = character.centre_of_mass - character.part(self.from).position;
         let (along, axis) = match self.axis {
             TurnAxis::X => (character.facing, DVec3::X),
@@ -104,7 +104,7 @@ fn facing_of(world_from_part: DQuat) -> f64 {
 /// Makes a part's wanted turn one in the world: what the pose says of it is measured from an upright frame. That frame
 /// faces as the parent does, so that a turn about the vertical still goes from part to part: a leg that stands holds the body's
 /// heading.
-fn hold_upright(node: Node, character: &CharacterFrame, target: &mut Target) {
+fn hold_upright(node: Node, character: &CharacterFrame, target: &mut Wanted) {
     let Some(parent) = node.parent() else {
         return;
     };

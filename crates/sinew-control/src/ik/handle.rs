@@ -1,6 +1,6 @@
 //! What keeps the wanted pose of a limb on a point while its body moves: the paper's `setIKTarget`.
 
-use crate::Target;
+use crate::Wanted;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, LimbGoal, Node, exp, log, solve_limb};
 use sinew_snapshot::snapshot;
@@ -92,7 +92,7 @@ impl IkHandles {
     }
 
     /// Turns the limbs of a wanted pose to their targets, seen from where the body is now.
-    pub fn write(&mut self, character: &CharacterFrame, body: &Body, step_secs: f64, target: &mut Target) {
+    pub fn write(&mut self, character: &CharacterFrame, body: &Body, step_secs: f64, target: &mut Wanted) {
         for limb in Limb::ALL {
             self.handles[limb.index()].write(limb, character, body, step_secs, target);
         }
@@ -100,7 +100,7 @@ impl IkHandles {
 }
 
 impl Handle {
-    fn write(&mut self, limb: Limb, character: &CharacterFrame, body: &Body, step_secs: f64, target: &mut Target) {
+    fn write(&mut self, limb: Limb, character: &CharacterFrame, body: &Body, step_secs: f64, target: &mut Wanted) {
         let [upper, lower, end] = limb.nodes();
         let pose = [target.joint(upper).rotation, target.joint(lower).rotation];
         if self.share == 0.0 {

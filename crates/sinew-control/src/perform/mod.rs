@@ -4,7 +4,7 @@
 //! a live session replays to the same bits. [`LiveSource`] does everything else, step by step and without a clock of its own:
 //!
 //! ```text
-//! sample ─▶ outlier_filter ─▶ alignment ─▶ buffer ─▶ playhead ─▶ blend ─▶ One-Euro filter ─▶ Target
+//! sample ─▶ outlier_filter ─▶ alignment ─▶ buffer ─▶ playhead ─▶ blend ─▶ One-Euro filter ─▶ Wanted
 //!           counters   performer    by time    clock of    hold,
 //!                      to body                 the sender  relax, return
 //! ```

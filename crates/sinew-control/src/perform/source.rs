@@ -7,7 +7,6 @@ use super::clock::Clock;
 use super::one_euro::OneEuro;
 use super::outlier_filter::{Around, OutlierFilter, Verdict};
 use super::{BodyProportions, LiveSettings, PerformCounters, PerformerSample};
-use crate::Target;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp, log};
 use sinew_snapshot::snapshot;
@@ -360,20 +359,9 @@ impl LiveSource {
         (linear, self.turning(Node::Hips))
     }
 
-    fn turning(&self, node: Node) -> DVec3 {
+    /// Angular velocity of a joint in its own frame \[rad/s\].
+    pub(crate) fn turning(&self, node: Node) -> DVec3 {
         let apart: DQuat = self.before.local(node).conjugate() * self.shown.local(node);
         log(apart.normalize()) / self.step_secs
-    }
-
-    /// Writes what is wanted at the end of the step into a target.
-    pub fn write(&self, target: &mut Target) {
-        for node in Node::ALL.into_iter().skip(1) {
-            let joint = target.joint_mut(node);
-            joint.rotation = self.shown.local(node).normalize();
-            joint.velocity = self.turning(node);
-            joint.gain = self.gain;
-            joint.damping = 1.0;
-        }
-        target.root = Some((self.shown.hips_position, self.shown.world[0]));
     }
 }

@@ -1,7 +1,7 @@
 //! A key pose on a body: EQ1's (ψ, σ, δ) of Shapiro et al. 2007.
 
 use super::{FullJointSpec, JointSpec, PartName, PoseSpec};
-use crate::Target;
+use crate::Wanted;
 use glam::{DMat3, DQuat, DVec3};
 use sinew_body::humanoid::{Node, exp, log};
 use sinew_snapshot::snapshot;
@@ -37,11 +37,11 @@ impl KeyPose {
         follow_velocity: false,
     };
 
-    /// The turns that a target asks for now, as a pose to be saved.
-    pub fn of_target(target: &Target) -> KeyPose {
+    /// The turns that are wanted now, as a pose to be saved.
+    pub fn of_wanted(wanted: &Wanted) -> KeyPose {
         let mut pose = KeyPose::STAND;
         for node in Node::ALL.into_iter().skip(1) {
-            let (at, joint) = (node.index(), target.joint(node));
+            let (at, joint) = (node.index(), wanted.joint(node));
             pose.rotations[at] = joint.rotation;
             pose.gains[at] = joint.gain;
             pose.dampings[at] = joint.damping;

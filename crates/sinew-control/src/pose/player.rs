@@ -1,7 +1,7 @@
 //! The wanted pose as it moves from key pose to key pose.
 
 use super::KeyPose;
-use crate::Target;
+use crate::Wanted;
 use crate::ik::{IkHandles, between};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, log};
@@ -15,9 +15,9 @@ pub struct PosePlayer {
     pub ik: IkHandles,
     aim: KeyPose,
     /// What was wanted when the blend began.
-    from: Wanted,
+    from: Blended,
     /// What is wanted now, before IK.
-    now: Wanted,
+    now: Blended,
     elapsed_secs: f64,
     /// What was written last, to know its velocity.
     written: Option<[DQuat; Node::COUNT]>,
@@ -25,19 +25,19 @@ pub struct PosePlayer {
 
 /// A pose on its way.
 #[derive(Clone, Debug, PartialEq)]
-struct Wanted {
+struct Blended {
     rotations: [DQuat; Node::COUNT],
     gains: [f64; Node::COUNT],
     dampings: [f64; Node::COUNT],
 }
 
 snapshot!(PosePlayer { ik, aim, from, now, elapsed_secs, written });
-snapshot!(Wanted { rotations, gains, dampings });
+snapshot!(Blended { rotations, gains, dampings });
 
 impl PosePlayer {
     /// A player that has arrived at a pose.
     pub fn new(pose: &KeyPose) -> PosePlayer {
-        let wanted = Wanted { rotations: pose.rotations, gains: pose.gains, dampings: pose.dampings };
+        let wanted = Blended { rotations: pose.rotations, gains: pose.gains, dampings: pose.dampings };
         PosePlayer {
             ik: IkHandles::default(),
             aim: pose.clone(),
@@ -82,7 +82,7 @@ impl PosePlayer {
 
     /// Goes on by a step and writes what is wanted at its end. `own` is the character's place in the frame; a frame without it
     /// gets the pose without IK. Root and torques of the target are left alone.
-    pub fn write(&mut self, frame: &Frame, own: usize, body: &Body, step_secs: f64, target: &mut Target) {
+    pub fn write(&mut self, frame: &Frame, own: usize, body: &Body, step_secs: f64, target: &mut Wanted) {
         self.elapsed_secs = (self.elapsed_secs + step_secs).min(self.aim.blend_secs);
         let progress = self.progress();
         let share = progress * progress * (3.0 - 2.0 * progress);

@@ -8,7 +8,7 @@ mod balance;
 
 pub use balance::{Balance, BalanceSettings};
 
-use crate::Target;
+use crate::Wanted;
 use crate::tracker::Gains;
 use sinew_body::humanoid::Body;
 use sinew_snapshot::Snapshot;
@@ -39,12 +39,12 @@ impl Sense<'_> {
 }
 
 /// A controller in Rust. What it remembers is kept with the stage: [`Snapshot`].
-pub trait Reflex: Snapshot + Send {
+pub trait Reflex: Snapshot + Send + Sync {
     /// Its name in scenes and commands.
     fn name(&self) -> &'static str;
 
     /// Changes the wanted pose for the next step. Must not panic, and not allocate.
-    fn step(&mut self, sense: &Sense, target: &mut Target);
+    fn step(&mut self, sense: &Sense, target: &mut Wanted);
 
     /// Forgets what it remembers: it was switched on, or the character was put back.
     fn reset(&mut self);

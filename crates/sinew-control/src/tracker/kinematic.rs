@@ -2,6 +2,8 @@
 
 use super::clock::Clock;
 use super::pose_interpolator::PoseInterpolator;
+use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
+use crate::Wanted;
 use sinew_body::humanoid::{Node, Pose};
 use sinew_world::World;
 
@@ -55,8 +57,34 @@ impl KinematicTracker {
         }
     }
 
-    /// Hands the parts back to physics, as they move now.
-    pub fn release(&self, world: &mut World, character: usize) {
+    /// See [`Tracker::honours`].
+    pub const HONOURS: Honours = Honours::NOTHING;
+}
+
+impl Tracker for KinematicTracker {
+    fn kind(&self) -> TrackerKind {
+        TrackerKind::Kinematic
+    }
+
+    fn honours(&self) -> Honours {
+        KinematicTracker::HONOURS
+    }
+
+    fn wants(&self) -> Wants {
+        if self.wants_pose() { Wants::Pose } else { Wants::Nothing }
+    }
+
+    fn take_over(&mut self, _: &TakeOver, _: &mut World, _: usize) {}
+
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize) {
+        if self.wants_pose() {
+            self.wanted(&wanted.pose);
+        }
+        self.physics_step(world, character);
+    }
+
+    /// The parts go on as they move now.
+    fn release(&mut self, world: &mut World, character: usize) {
         for node in Node::ALL {
             world.set_forces(character, node, true);
         }

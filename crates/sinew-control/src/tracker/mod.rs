@@ -1,4 +1,4 @@
-//! How a body follows its target.
+//! How a body follows what is wanted: the [`Tracker`], and its five kinds.
 
 mod clock;
 mod contact_forces;
@@ -6,7 +6,9 @@ mod gains;
 mod hold;
 mod instant;
 mod kd;
+mod kind;
 mod kinematic;
+mod limp;
 mod pd;
 mod pose_interpolator;
 mod response;
@@ -15,6 +17,85 @@ mod tasks;
 pub use gains::{Gains, JointGain};
 pub use hold::Grip;
 pub use kd::{KdDamping, KdGains, KdPreset, KdSettings, KdTracker, KdWeight};
+pub use kind::{Honours, TrackerKind};
 pub use kinematic::KinematicTracker;
+pub use limp::Limp;
 pub use pd::PdTracker;
 pub use response::ResponseTracker;
+
+use crate::Wanted;
+use sinew_body::humanoid::Pose;
+use sinew_world::World;
+use std::any::Any;
+use std::fmt::Debug;
+
+/// What a tracker wants to know for the world's next step. Each says more than the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Wants {
+    /// Nothing: it goes on by what it was told.
+    Nothing,
+    /// How firmly: gains, damping and torques of the joints.
+    Firmness,
+    /// The joints too, at the end of the step.
+    Joints,
+    /// The whole pose too, at the end of the motion frame that begins.
+    Pose,
+}
+
+/// How a tracker begins.
+#[derive(Clone, Copy)]
+pub struct TakeOver<'a> {
+    /// The wanted pose at any time of the stage \[s\], where the source is a motion that is known beforehand, such as a clip.
+    pub motion: Option<&'a dyn Fn(f64) -> Pose>,
+}
+
+/// Makes one character's body follow what is wanted.
+///
+/// Before each step of the world: when [`wants`](Tracker::wants) says so, bring [`Wanted`] up to date, then
+/// [`follow`](Tracker::follow). Neither allocates or panics. The character is a place in the world's frame.
+///
+/// ```
+/// use sinew_body::humanoid::{Body, Pose};
+/// use sinew_control::Wanted;
+/// use sinew_control::tracker::{KinematicTracker, TakeOver, Tracker, Wants};
+/// use sinew_world::{CharacterSpec, Surface, World, WorldSettings};
+/// let mut world = World::new(WorldSettings::default());
+/// let spec = CharacterSpec { body: Body::standard(80.0, 1.7), pose: Pose::STANDING, velocity: glam::DVec3::ZERO, surface: Surface::BODY };
+/// let character = world.add_character(spec)?;
+/// let mut tracker: Box<dyn Tracker> = Box::new(KinematicTracker::new(1.0 / 60.0, &Pose::STANDING));
+/// tracker.take_over(&TakeOver { motion: None }, &mut world, character);
+/// let mut wanted = Wanted::STANDING;
+/// for _ in 0..240 {
+///     if tracker.wants() == Wants::Pose {
+///         wanted.pose.hips_position.x += 0.01;
+///     }
+///     tracker.follow(&wanted, &mut world, character);
+///     world.step();
+/// }
+/// assert!((world.frame().characters[character].parts[0].position.x - 0.6).abs() < 1e-3);
+/// # Ok::<(), sinew_world::SpecError>(())
+/// ```
+pub trait Tracker: Any + Debug + Send + Sync {
+    /// Which of the trackers it is.
+    fn kind(&self) -> TrackerKind;
+
+    /// What it does with gains, torques and springs.
+    fn honours(&self) -> Honours;
+
+    /// What it wants to know for the next step.
+    fn wants(&self) -> Wants;
+
+    /// Whether hips that the source does not place go where the standing foot has them go, on the floor, instead of staying.
+    fn locks_feet(&self) -> bool {
+        false
+    }
+
+    /// The body is its own from now on, after another tracker's [`release`](Tracker::release).
+    fn take_over(&mut self, start: &TakeOver, world: &mut World, character: usize);
+
+    /// Sets forces, springs or places for the world's next step.
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize);
+
+    /// Hands the body back to physics.
+    fn release(&mut self, world: &mut World, character: usize);
+}

@@ -4,8 +4,8 @@
 //! with (θ − θ_d), the sign of positive feedback. On a ball joint the error is the rotation vector from present to wanted. The
 //! world integrates the springs implicitly.
 
-use super::{Gains, JointGain};
-use crate::Target;
+use super::{Gains, Honours, JointGain, TakeOver, Tracker, TrackerKind, Wants};
+use crate::Wanted;
 use sinew_body::humanoid::{Body, Node};
 use sinew_world::{Drive, World, outboard_inertias};
 
@@ -13,19 +13,19 @@ use sinew_world::{Drive, World, outboard_inertias};
 #[derive(Clone, Debug)]
 pub struct PdTracker {
     gains: Gains,
-    /// k_sg, the character's global gain \[1\].
-    pub global_gain: f64,
-    /// A factor for each joint on top \[1\].
-    pub joint_gain: [f64; Node::COUNT],
 }
 
-sinew_snapshot::snapshot!(PdTracker { global_gain, joint_gain } fixed { gains });
+sinew_snapshot::snapshot!(PdTracker {} fixed { gains });
 
 impl PdTracker {
     /// For a body, with the spring of each joint by [`Node::index`].
     pub fn new(body: &Body, joints: &[JointGain; Node::COUNT]) -> PdTracker {
-        let gains = Gains::of(body, &outboard_inertias(body), joints);
-        PdTracker { gains, global_gain: 1.0, joint_gain: [1.0; Node::COUNT] }
+        PdTracker::with(Gains::of(body, &outboard_inertias(body), joints))
+    }
+
+    /// With stiffness and damping of every joint.
+    pub fn with(gains: Gains) -> PdTracker {
+        PdTracker { gains }
     }
 
     /// The joints' own springs.
@@ -33,12 +33,30 @@ impl PdTracker {
         &self.gains
     }
 
-    /// Hands the target to the joints of a character for the next step.
-    pub fn apply(&self, world: &mut World, character: usize, target: &Target) {
+    /// See [`Tracker::honours`].
+    pub const HONOURS: Honours = Honours { gains: true, torques: true, springs: true };
+}
+
+impl Tracker for PdTracker {
+    fn kind(&self) -> TrackerKind {
+        TrackerKind::Pd
+    }
+
+    fn honours(&self) -> Honours {
+        PdTracker::HONOURS
+    }
+
+    fn wants(&self) -> Wants {
+        Wants::Joints
+    }
+
+    fn take_over(&mut self, _: &TakeOver, _: &mut World, _: usize) {}
+
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize) {
         for node in Node::ALL.into_iter().skip(1) {
             let at = node.index();
-            let wanted = &target.joints[at];
-            let factor = self.global_gain * self.joint_gain[at] * wanted.gain;
+            let wanted = &wanted.joints[at];
+            let factor = wanted.gain;
             // Damping goes with the root of the stiffness, so that the damping ratio stays.
             let damping = self.gains.damping[at] * factor.max(0.0).sqrt() * wanted.damping;
             world.set_drive(
@@ -54,6 +72,9 @@ impl PdTracker {
             );
         }
     }
+
+    /// The springs stay as they are until another tracker changes them.
+    fn release(&mut self, _: &mut World, _: usize) {}
 }
 
 /// Share of a joint's damping that is left when its gain is nothing: flesh \[1\].

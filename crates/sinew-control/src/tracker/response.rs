@@ -10,6 +10,8 @@ use super::contact_forces::ContactForces;
 use super::hold::{Grip, GroundMotion, Hold};
 use super::pose_interpolator::PoseInterpolator;
 use super::tasks::Tasks;
+use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
+use crate::Wanted;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_response::{Basis, PointForce, Response, Settings};
@@ -179,8 +181,39 @@ impl ResponseTracker {
         self.hold.set_grip(grip);
     }
 
-    /// Lets all parts go.
-    pub fn release(&self, world: &mut World, character: usize) {
+    /// See [`Tracker::honours`].
+    pub const HONOURS: Honours = Honours::NOTHING;
+}
+
+impl Tracker for ResponseTracker {
+    fn kind(&self) -> TrackerKind {
+        TrackerKind::Response
+    }
+
+    fn honours(&self) -> Honours {
+        ResponseTracker::HONOURS
+    }
+
+    fn wants(&self) -> Wants {
+        if self.wants_pose() { Wants::Pose } else { Wants::Nothing }
+    }
+
+    /// Goes on in the middle of a motion that is known beforehand. What is kept upright is so from there.
+    fn take_over(&mut self, start: &TakeOver, world: &mut World, _: usize) {
+        let Some(motion) = start.motion else { return };
+        let now_secs = world.frame().time_secs;
+        self.restart(&motion(now_secs - self.clock.time_step_secs()), &motion(now_secs));
+        self.keep_upright(self.upright().map(|(node, _)| node));
+    }
+
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize) {
+        if self.wants_pose() {
+            self.wanted(&wanted.pose);
+        }
+        self.physics_step(world, character);
+    }
+
+    fn release(&mut self, world: &mut World, character: usize) {
         world.set_limp(character);
     }
 }

@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp, log};
-use sinew_control::Target;
+use sinew_control::Wanted;
 use sinew_control::graph::{Cause, Graph, GraphError, GraphPlayer, Touchable};
 use sinew_control::pose::{read_poses, resolve_poses, rotation_of};
 use sinew_world::{BodyState, CharacterFrame, Contact, Entity, Frame};
@@ -236,7 +236,7 @@ fn feedback_turns_the_joint_in_proportion_to_the_centre_of_mass() {
     own.centre_of_mass = foot + DVec3::new(0.3, 0.9, 0.1);
     own.centre_velocity = DVec3::new(0.5, 0.0, 0.0);
     let frame = Frame { characters: vec![own], ..Frame::default() };
-    let mut target = Target::STANDING;
+    let mut target = Wanted::STANDING;
     GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, 0, &mut target);
     let turn = |node| log(target.joint(node).rotation);
     assert!((turn(Node::RightUpperLeg) - DVec3::X * (-0.5 * 0.3 - 0.2 * 0.5)).length() < 1e-12);
@@ -259,7 +259,7 @@ fn world_hips_and_upright_parts_are_measured_in_the_world() {
     own.facing = yaw * DVec3::Z;
     let frame = Frame { characters: vec![own], ..Frame::default() };
     let player = GraphPlayer::new(&graph, STEP_SECS);
-    let mut target = Target::STANDING;
+    let mut target = Wanted::STANDING;
     for node in Node::ALL {
         target.joint_mut(node).rotation = player.pose(&graph).rotations[node.index()];
     }
@@ -284,7 +284,7 @@ fn an_upright_foot_is_level_whatever_its_leg_does_and_faces_as_its_shank_does() 
     own.parts[Node::RightLowerLeg.index()].rotation = shank;
     own.parts[Node::RightLowerLeg.index()].angular_velocity = DVec3::new(3.0, 2.0, -1.0);
     let frame = Frame { characters: vec![own], ..Frame::default() };
-    let mut target = Target::STANDING;
+    let mut target = Wanted::STANDING;
     GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, 0, &mut target);
     let joint = target.joint(Node::RightFoot);
     let foot = shank * joint.rotation;
@@ -307,7 +307,7 @@ fn a_heading_turns_the_hips_the_short_way_and_not_all_at_once() {
             part.rotation = facing;
         }
         let frame = Frame { characters: vec![own], ..Frame::default() };
-        let mut target = Target::STANDING;
+        let mut target = Wanted::STANDING;
         GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, 0, &mut target);
         // The thigh that carries stays, the hips come to their heading.
         let hips = facing * target.joint(Node::LeftUpperLeg).rotation.conjugate();

@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, LimbGoal, Node, Pose, log, solve_limb};
-use sinew_control::Target;
+use sinew_control::Wanted;
 use sinew_control::ik::Reach;
 use sinew_control::pose::{KeyPose, PoseError, PosePlayer, angles_deg, read_poses, resolve_poses, rotation_of};
 use sinew_world::{BodyState, CharacterFrame, Frame};
@@ -213,7 +213,7 @@ fn the_wanted_pose_moves_without_a_jump_even_when_the_aim_changes_half_way() {
     )
     .unwrap();
     let mut player = PosePlayer::new(&poses["stand"]);
-    let mut target = Target::STANDING;
+    let mut target = Wanted::STANDING;
     let mut before = target.clone();
     for index in 0..300 {
         match index {
@@ -244,7 +244,7 @@ fn with_follow_velocity_the_wanted_velocity_is_that_of_the_blend() {
     let poses =
         resolved("[poses.a]\nfollow_velocity = true\nblend_secs = 0.5\njoints.leftLowerArm = [-90, 0, 0]").unwrap();
     let mut player = PosePlayer::new(&poses["stand"]);
-    let mut target = Target::STANDING;
+    let mut target = Wanted::STANDING;
     player.write(&frame, 0, &body, step, &mut target);
     player.aim(&poses["a"]);
     let mut turned = DVec3::ZERO;
@@ -263,7 +263,7 @@ fn a_reaching_limb_wants_its_hand_at_the_target_of_the_world() {
     let reach = Reach { target: DVec3::new(1.1, 1.5, 0.35), effector: DVec3::new(0.0, -0.12, 0.11) };
     let mut player = PosePlayer::new(&KeyPose::STAND);
     player.ik.reach(Limb::RightArm, reach);
-    let mut target = Target::STANDING;
+    let mut target = Wanted::STANDING;
     for _ in 0..240 {
         player.write(&frame, 0, &body, step, &mut target);
     }

@@ -5,7 +5,7 @@
 use crate::pushed::{Place, Push, STRIDE, Standing};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, Node, Pose, exp};
-use sinew_control::Target;
+use sinew_control::Wanted;
 use sinew_control::graph::{Graph, GraphPlayer};
 use sinew_control::ik::Reach;
 use sinew_control::perform::{LiveSettings, LiveSource, PerformerSample};
@@ -41,7 +41,7 @@ fn goes_on<T: Snapshot, Out: PartialEq>(fresh: impl Fn() -> T, frames: usize, st
 }
 
 /// What a target asks for, bit by bit.
-fn bits(target: &Target) -> Vec<u64> {
+fn bits(target: &Wanted) -> Vec<u64> {
     let joint = |at: usize| {
         let joint = &target.joints[at];
         let vectors = joint.velocity.to_array().into_iter().chain(joint.torque.to_array());
@@ -102,7 +102,7 @@ fn key_poses_graphs_and_limbs_that_reach_are_restored_to_the_same_bits() {
                 500 => player.take_over(&frames[at].characters[0]),
                 _ => {}
             }
-            let mut target = Target::STANDING;
+            let mut target = Wanted::STANDING;
             player.write(&frames[at], 0, &body, STEP_SECS, &mut target);
             (bits(&target), graph_player.state_name(&graph).to_owned())
         },
@@ -144,7 +144,7 @@ fn a_live_performer_that_is_restored_goes_on_to_the_same_bits() {
             let now = at as f64 * STEP_SECS;
             samples.iter().filter(|(when, _)| *when == at).for_each(|(_, sample)| source.receive(sample, now));
             let presence = source.advance(now, STEP_SECS);
-            let mut target = Target::STANDING;
+            let mut target = Wanted::STANDING;
             source.write(&mut target);
             (bits(&target), presence, source.counters(), source.delay_secs().to_bits())
         },

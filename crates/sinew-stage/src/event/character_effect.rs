@@ -2,12 +2,11 @@
 
 use super::cut;
 use super::effect::over;
-use crate::scene::TrackerKind;
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::Layer;
 use sinew_control::perform::Presence;
-use sinew_control::tracker::KdGains;
+use sinew_control::tracker::{KdGains, TrackerKind};
 use sinew_reach::Reason;
 use std::fmt;
 

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_body::humanoid::Node;
 use sinew_control::Layer;
+use sinew_control::tracker::TrackerKind;
 use sinew_motion::Part;
 use std::collections::BTreeMap;
 
@@ -60,23 +61,6 @@ pub struct CharacterSpec {
     pub colour: Option<String>,
 }
 
-/// How a body follows the wanted pose.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum TrackerKind {
-    /// It has the wanted pose, and nothing moves it.
-    Kinematic,
-    /// Springs in the joints.
-    #[default]
-    Pd,
-    /// Springs in the joints, and forces that hold every part to its place.
-    Kd,
-    /// It follows and yields in the directions that its own motion leaves free.
-    Response,
-    /// Limp.
-    None,
-}
-
 /// Stiffness of one joint. What is left out stays as usual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -109,28 +93,6 @@ pub struct PlaneFacing {
 
 /// Reflexes that exist.
 pub const REFLEXES: [&str; 1] = ["balance"];
-
-impl TrackerKind {
-    /// All of them.
-    pub const ALL: [TrackerKind; 5] =
-        [TrackerKind::Kinematic, TrackerKind::Pd, TrackerKind::Kd, TrackerKind::Response, TrackerKind::None];
-
-    /// As scenes and commands name it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            TrackerKind::Kinematic => "kinematic",
-            TrackerKind::Pd => "pd",
-            TrackerKind::Kd => "kd",
-            TrackerKind::Response => "response",
-            TrackerKind::None => "none",
-        }
-    }
-
-    /// The one of this name.
-    pub fn of(name: &str) -> Option<TrackerKind> {
-        TrackerKind::ALL.into_iter().find(|kind| kind.name() == name)
-    }
-}
 
 impl Default for CharacterSpec {
     fn default() -> CharacterSpec {

@@ -3,8 +3,9 @@
 use super::error::{known, shortened};
 use super::kd::{MAX_GAIN, MAX_WEIGHT};
 use super::stage::MAX_SECS;
-use super::{REFLEXES, SceneSpec, TrackerKind};
+use super::{REFLEXES, SceneSpec};
 use sinew_body::humanoid::Limb;
+use sinew_control::tracker::TrackerKind;
 use sinew_control::{Action, Command};
 use std::ops::RangeInclusive;
 

@@ -26,7 +26,7 @@ mod stage;
 mod timeline;
 mod wording;
 
-pub use character::{CharacterSpec, JointSpec, PlaneFacing, PlaneSpec, REFLEXES, TrackerKind};
+pub use character::{CharacterSpec, JointSpec, PlaneFacing, PlaneSpec, REFLEXES};
 pub use check::STAND;
 pub use controller::ControllerSpec;
 pub use error::SceneError;

@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
+use sinew_control::tracker::TrackerKind;
 use sinew_stage::Scene;
-use sinew_stage::scene::TrackerKind;
 
 const SCENE: &str = "format = 1\n[stage]\npose_files = [\"a.toml\"]\n[characters.left]\nmass_kg = 80\n[[at]]\ntime_secs = 1\n\
                      do = \"say\"\ntext = \"now\"\n[[at]]\ntime_secs = 2\ndo = \"say\"\ntext = \"then\"\n";

@@ -2,7 +2,7 @@
 
 use super::flywheel::{Flywheel, Swing};
 use super::legs::smooth;
-use crate::Target;
+use crate::Wanted;
 use crate::reflex::Sense;
 use glam::{DVec2, DVec3};
 use sinew_body::humanoid::{Node, exp};
@@ -48,7 +48,7 @@ impl Arms {
     }
 
     /// Turns the upper arms: both backward or forward, the outer one up. Arms that hang swing most, others are about something.
-    pub fn drive(&self, sense: &Sense, strength: f64, target: &mut Target) {
+    pub fn drive(&self, sense: &Sense, strength: f64, target: &mut Wanted) {
         let me = sense.character();
         for (shoulder, arm, side) in
             [(Node::LeftShoulder, Node::LeftUpperArm, 1.0), (Node::RightShoulder, Node::RightUpperArm, -1.0)]
@@ -67,7 +67,7 @@ impl Arms {
 }
 
 /// Turns neck and head back by what the chest is off upright; `off` takes it there (world axes) \[rad\].
-pub(super) fn level_head(sense: &Sense, off: DVec3, strength: f64, target: &mut Target) {
+pub(super) fn level_head(sense: &Sense, off: DVec3, strength: f64, target: &mut Wanted) {
     let turn = off.clamp_length_max(MAX_HEAD_RAD) * (0.5 * strength);
     for (above, node) in [(Node::Chest, Node::Neck), (Node::Neck, Node::Head)] {
         let parent_from_world = sense.character().part(above).rotation.conjugate();

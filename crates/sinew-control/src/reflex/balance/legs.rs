@@ -3,7 +3,7 @@
 use super::split::Split;
 use super::stance::{Stance, leg, lift};
 use crate::reflex::Sense;
-use crate::{JointTarget, Target};
+use crate::{JointTarget, Wanted};
 use glam::{DVec2, DVec3};
 use sinew_body::humanoid::{Node, exp, log, swing_twist};
 
@@ -65,7 +65,7 @@ pub(super) fn drive(
     ground: &Ground,
     load_n: &[f64; 2],
     strength: f64,
-    target: &mut Target,
+    target: &mut Wanted,
 ) {
     let me = sense.character();
     let weight = sense.body.mass_kg() * sense.gravity_m_s2;

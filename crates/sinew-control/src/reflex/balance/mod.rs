@@ -44,7 +44,7 @@ mod trunk;
 pub use settings::BalanceSettings;
 
 use super::{Reflex, Sense};
-use crate::Target;
+use crate::Wanted;
 use arms::Arms;
 use glam::DVec2;
 use legs::{Ground, smooth};
@@ -102,7 +102,7 @@ impl Reflex for Balance {
         "balance"
     }
 
-    fn step(&mut self, sense: &Sense, target: &mut Target) {
+    fn step(&mut self, sense: &Sense, target: &mut Wanted) {
         if sense.gravity_m_s2 < 0.1 || sense.frame.characters.len() <= sense.own {
             return;
         }

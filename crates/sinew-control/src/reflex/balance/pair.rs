@@ -4,7 +4,7 @@
 //! little. Hips that turn over planted feet sink, and so do legs that part; without a pull back both would grow.
 
 use super::stance::Stance;
-use crate::Target;
+use crate::Wanted;
 use crate::reflex::Sense;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, LEGS, Node, Pose};
@@ -40,7 +40,7 @@ impl Pair {
     }
 
     /// Horizontal force on the left foot; the right one gets the opposite \[N\].
-    pub fn force(&self, sense: &Sense, stance: &Stance, load_n: &[f64; 2], target: &Target) -> DVec3 {
+    pub fn force(&self, sense: &Sense, stance: &Stance, load_n: &[f64; 2], target: &Wanted) -> DVec3 {
         if stance.stands != [true, true] {
             return DVec3::ZERO;
         }
@@ -65,7 +65,7 @@ impl Pair {
 }
 
 /// Where the wanted pose has an ankle, in the hips' frame \[m\].
-fn meant_ankle(body: &Body, target: &Target, side: usize) -> DVec3 {
+fn meant_ankle(body: &Body, target: &Wanted, side: usize) -> DVec3 {
     let (upper, lower, foot) = LEGS[side];
     let (mut place, mut turn) = (DVec3::ZERO, DQuat::IDENTITY);
     for node in [upper, lower, foot] {

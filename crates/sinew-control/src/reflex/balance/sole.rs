@@ -1,7 +1,7 @@
 //! A foot as something to stand on.
 
 use super::polygon::{Polygon, flat};
-use crate::Target;
+use crate::Wanted;
 use glam::{DQuat, DVec2, DVec3};
 use sinew_body::humanoid::{Body, LEGS, Node};
 use sinew_snapshot::snapshot;
@@ -48,7 +48,7 @@ impl Sole {
     }
 
     /// Height over the hips at which the wanted pose has the sole, were the hips upright \[m\].
-    pub fn meant_height_m(&self, body: &Body, target: &Target, side: usize) -> f64 {
+    pub fn meant_height_m(&self, body: &Body, target: &Wanted, side: usize) -> f64 {
         let (upper, lower, foot) = LEGS[side];
         let (mut place, mut turn) = (DVec3::ZERO, DQuat::IDENTITY);
         for node in [upper, lower, foot] {

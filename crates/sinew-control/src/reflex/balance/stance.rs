@@ -2,7 +2,7 @@
 
 use super::polygon::{Polygon, flat};
 use super::sole::{Footing, Sole};
-use crate::Target;
+use crate::Wanted;
 use crate::reflex::Sense;
 use glam::{DVec2, DVec3};
 use sinew_body::humanoid::{LEGS, Node};
@@ -95,7 +95,7 @@ pub(super) fn follow_bearing(
     sense: &Sense,
     soles: &[Sole; 2],
     load_n: &[f64; 2],
-    target: &Target,
+    target: &Wanted,
     bearing: &mut Option<[f64; 2]>,
 ) -> [f64; 2] {
     let me = sense.character();

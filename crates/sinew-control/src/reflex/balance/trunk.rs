@@ -4,7 +4,7 @@ use super::BalanceSettings;
 use super::flywheel::{FORESIGHT_SECS, Flywheel, Swing};
 use super::legs::smooth;
 use super::stance::{Stance, leg};
-use crate::Target;
+use crate::Wanted;
 use crate::reflex::Sense;
 use glam::{DQuat, DVec2, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
@@ -92,7 +92,7 @@ impl Trunk {
     }
 
     /// Bends the chest. Returns the turn that would take it upright (world axes) \[rad\].
-    pub fn drive(&self, sense: &Sense, wanted_up: DVec3, strength: f64, target: &mut Target) -> DVec3 {
+    pub fn drive(&self, sense: &Sense, wanted_up: DVec3, strength: f64, target: &mut Wanted) -> DVec3 {
         let me = sense.character();
         let hips = me.part(Node::Hips).rotation;
         let upright = DQuat::from_rotation_arc(hips * DVec3::Y, wanted_up) * hips;
@@ -110,7 +110,7 @@ impl Trunk {
 }
 
 /// The hips' up axis if the wanted pose stood on level feet.
-pub(super) fn wanted_up(stance: &Stance, target: &Target) -> DVec3 {
+pub(super) fn wanted_up(stance: &Stance, target: &Wanted) -> DVec3 {
     let mut up = DVec3::ZERO;
     for side in 0..2 {
         if stance.stands[side] {

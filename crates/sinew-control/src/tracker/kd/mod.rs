@@ -9,6 +9,7 @@
 //! pin's weight, and the torques I α̂ + ω̂ × I ω̂ of all that hangs from a joint. So an undisturbed body follows without lag,
 //! and a disturbed one is no stiffer than its gains.
 
+mod as_tracker;
 mod carrier;
 mod contact_support;
 mod get_up;
@@ -464,13 +465,6 @@ impl KdTracker {
             (shift / step_secs, self.before.turn(&self.now, at) / step_secs)
         });
         world.set_velocities(character, &velocities);
-    }
-
-    /// Lets all parts go.
-    pub fn release(&self, world: &mut World, character: usize) {
-        world.set_limp(character);
-        world.set_reaction_body(character, None);
-        world.set_passes_own(character, [0; Node::COUNT]);
     }
 }
 

@@ -5,8 +5,8 @@
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, LEGS, Node, Pose, exp};
 use sinew_control::reflex::{Balance, BalanceSettings, Reflex, Sense};
-use sinew_control::tracker::{JointGain, PdTracker};
-use sinew_control::{JointTarget, Target};
+use sinew_control::tracker::{JointGain, PdTracker, Tracker as _};
+use sinew_control::{JointTarget, Wanted};
 use sinew_world::{CharacterSpec, Surface, World, WorldSettings, hips_over_soles_m};
 
 /// When pushes begin \[s\]: the body has leant to where its weight rests.
@@ -45,9 +45,9 @@ pub struct Standing {
     pub body: Body,
     pub reflex: Balance,
     pub tracker: PdTracker,
-    pub target: Target,
+    pub target: Wanted,
     /// What the pose wants.
-    pub wanted: Target,
+    pub wanted: Wanted,
     start: [DVec3; 2],
 }
 
@@ -73,7 +73,7 @@ impl Standing {
         locals[0] = DQuat::from_rotation_y(heading_rad) * level;
         pose = Pose::from_locals(pose.hips_position, &locals);
         pose.hips_position = place + DVec3::Y * hips_over_soles_m(&body, &pose);
-        let mut wanted = Target::STANDING;
+        let mut wanted = Wanted::STANDING;
         for node in Node::ALL.into_iter().skip(1) {
             *wanted.joint_mut(node) = JointTarget { rotation: locals[node.index()], ..JointTarget::REST };
         }
@@ -105,7 +105,7 @@ impl Standing {
             gravity_m_s2: self.world.settings().gravity_m_s2,
         };
         self.reflex.step(&sense, &mut self.target);
-        self.tracker.apply(&mut self.world, 0, &self.target);
+        self.tracker.follow(&self.target, &mut self.world, 0);
         if let Some(push) = push {
             let (time, me) = (self.world.frame().time_secs, &self.world.frame().characters[0]);
             if time > PUSH_AT_SECS - 1e-9 && time < PUSH_AT_SECS + push.for_secs - 1e-9 {

@@ -4,10 +4,11 @@ use super::meter::{Instant, ReachMeter};
 use super::report::ReachReport;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, ReductionError};
+use sinew_control::source::{ClipSource, HAND_OVER_SECS, Source as _, handed_over};
 use sinew_motion::formats::MotionFile;
 use sinew_motion::resample;
 use sinew_reach::{Goal, Obstacle, Reacher, Start, Style, StyleError, standing};
-use sinew_stage::{HAND_OVER_SECS, MotionSource, RecordedCharacter, RecordedProp, Recording, handed_over};
+use sinew_stage::{RecordedCharacter, RecordedProp, Recording};
 use sinew_world::{Form, Solid, hips_over_soles_m};
 
 /// Which hand reaches.
@@ -240,7 +241,7 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
 const AFTERWARDS_SECS: f64 = 2.0;
 
 /// Lets go and stands up from a frame on; where there is a clip, goes on with it from where it was left.
-fn way_back(body: &Body, reacher: &mut Reacher, clip: Option<&mut MotionSource>, frame: usize, poses: &mut Vec<Pose>) {
+fn way_back(body: &Body, reacher: &mut Reacher, clip: Option<&mut ClipSource>, frame: usize, poses: &mut Vec<Pose>) {
     let secs = |frame: usize| frame as f64 / HZ;
     reacher.advance(secs(frame));
     reacher.release();
@@ -317,7 +318,7 @@ impl ReachJob {
 }
 
 /// The body of a clip, and its motion from the time at which it is left, standing there on the floor at height 0.
-fn from_clip(job: &ReachJob, file: &MotionFile) -> Result<(Body, MotionSource), ReachError> {
+fn from_clip(job: &ReachJob, file: &MotionFile) -> Result<(Body, ClipSource), ReachError> {
     let parts = file.body_parts()?;
     let ends_secs = file.clip.duration_secs();
     if job.from_secs > ends_secs + 0.5 / HZ {
@@ -326,12 +327,12 @@ fn from_clip(job: &ReachJob, file: &MotionFile) -> Result<(Body, MotionSource), 
     let reduction = Reduction::new(&file.clip, parts, file.stature_m, job.person)?;
     let clip = resample(&file.clip, HZ);
     let mut poses: Vec<Pose> = (0..clip.frames()).map(|frame| reduction.pose(&clip.world(frame))).collect();
-    let start = MotionSource::of_poses(poses.clone(), HZ, job.from_secs).pose_at(0.0);
+    let start = ClipSource::of_poses(poses.clone(), HZ, job.from_secs).pose_at(0.0);
     let lift = hips_over_soles_m(reduction.body(), &start) - start.hips_position.y;
     poses.iter_mut().for_each(|pose| pose.hips_position.y += lift);
     let mut body = reduction.body().clone();
     body.widen_limits(&start);
-    Ok((body, MotionSource::of_poses(poses, HZ, job.from_secs)))
+    Ok((body, ClipSource::of_poses(poses, HZ, job.from_secs)))
 }
 
 /// Where a pose faces \[rad about +Y from +Z to +X\].

@@ -1,4 +1,4 @@
-//! From standing after a reach back into what was before.
+//! From one source to the next.
 
 use sinew_body::humanoid::{Node, Pose, exp, log};
 

@@ -1,0 +1,118 @@
+//! A clip: poses at a constant rate.
+
+use super::Source;
+use crate::{Root, Wanted};
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Body, Node, Pose};
+
+/// Poses at a constant rate, placed on the stage.
+///
+/// ```
+/// use sinew_body::humanoid::Pose;
+/// use sinew_control::source::ClipSource;
+/// let mut ahead = Pose::STANDING;
+/// ahead.hips_position.z = 0.1;
+/// let clip = ClipSource::of_poses(vec![Pose::STANDING, ahead], 60.0, 0.0);
+/// assert_eq!(clip.pose_at(10.0), ahead); // after the end it is the last one
+/// ```
+#[derive(Clone, Debug)]
+pub struct ClipSource {
+    poses: Vec<Pose>,
+    hz: f64,
+    start_secs: f64,
+    /// When it was resumed, if it was \[s of the stage\].
+    resumed_secs: Option<f64>,
+}
+
+/// How long a clip that is resumed takes to come to its own pace \[s\].
+const STARTS_SECS: f64 = 0.8;
+
+/// How far from where it was left a clip is resumed, to find feet as they stand \[s\]: half a step of a walk.
+const NEAR_SECS: f64 = 0.3;
+
+impl ClipSource {
+    /// Poses at a rate \[Hz\], of which the one at `start_secs` is the stage's first.
+    pub fn of_poses(poses: Vec<Pose>, hz: f64, start_secs: f64) -> ClipSource {
+        ClipSource { poses, hz, start_secs, resumed_secs: None }
+    }
+
+    /// The pose at a time of the stage; before the start the first, after the end the last.
+    pub fn pose_at(&self, time_secs: f64) -> Pose {
+        self.pose_of(self.start_secs + self.own_secs(time_secs))
+    }
+
+    /// The clip's time: one that is resumed sets out from rest.
+    fn own_secs(&self, time_secs: f64) -> f64 {
+        let Some(resumed_secs) = self.resumed_secs else { return time_secs };
+        let share = ((time_secs - resumed_secs) / STARTS_SECS).clamp(0.0, 1.0);
+        // The integral of a pace that grows by a cubic, 3 s² - 2 s³.
+        let behind = STARTS_SECS * (share - share * share * share * (1.0 - 0.5 * share));
+        time_secs - behind
+    }
+
+    /// The pose at a time of the clip.
+    fn pose_of(&self, clip_secs: f64) -> Pose {
+        let at = (clip_secs * self.hz).max(0.0);
+        let last = self.poses.len().saturating_sub(1);
+        let (index, share) = ((at as usize).min(last), at - at.floor());
+        let (from, to) = (&self.poses[index], &self.poses[(index + 1).min(last)]);
+        let mut pose = *from;
+        pose.hips_position = from.hips_position.lerp(to.hips_position, share);
+        for node in Node::ALL {
+            pose.world[node.index()] = from.world[node.index()].slerp(to.world[node.index()], share).normalize();
+        }
+        pose
+    }
+}
+
+impl Source for ClipSource {
+    fn root(&self) -> Root {
+        Root::Placed
+    }
+
+    fn wanted(&self, at_secs: f64, wanted: &mut Wanted) {
+        let ahead = 1.0 / self.hz;
+        wanted.follow_poses(&self.pose_at(at_secs), &self.pose_at(at_secs + ahead), ahead);
+    }
+
+    fn motion(&self) -> Option<&[Pose]> {
+        Some(&self.poses)
+    }
+
+    /// Goes on at `now_secs` of the stage from where the clip was at `left_secs`, or near there where its feet are as those of a
+    /// pose; moved and turned about the vertical so that the hips are over the pose's place and face as there. It sets out from rest.
+    fn resume(&mut self, body: &Body, left_secs: f64, now_secs: f64, at: &Pose) {
+        let left = self.start_secs + self.own_secs(left_secs);
+        let tries = (NEAR_SECS * self.hz).floor() as i64;
+        let near = (-tries..=tries).map(|frames| left + frames as f64 / self.hz);
+        let stance = stance(body, at);
+        let off = |secs: &f64| {
+            let other = self::stance(body, &self.pose_of(*secs));
+            (0..2).map(|foot| (other[foot] - stance[foot]).length_squared()).sum::<f64>()
+        };
+        let from_secs = near.min_by(|one, other| off(one).total_cmp(&off(other))).unwrap_or(left).max(0.0);
+        let here = self.pose_of(from_secs);
+        let turn = DQuat::from_rotation_y(heading_rad(at) - heading_rad(&here));
+        let (from, to) = (here.hips_position, at.hips_position);
+        for pose in &mut self.poses {
+            let moved = turn * (pose.hips_position - from);
+            pose.hips_position = DVec3::new(to.x, from.y, to.z) + moved;
+            pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
+        }
+        self.start_secs = from_secs - now_secs;
+        self.resumed_secs = Some(now_secs);
+    }
+}
+
+/// Where a pose faces \[rad about +Y from +Z to +X\].
+fn heading_rad(pose: &Pose) -> f64 {
+    let forward = pose.world[0] * DVec3::Z;
+    libm::atan2(forward.x, forward.z)
+}
+
+/// Both ankles, seen from the hips, along and across where these face \[m\].
+fn stance(body: &Body, pose: &Pose) -> [DVec3; 2] {
+    let at = pose.positions(body);
+    let turn = DQuat::from_rotation_y(-heading_rad(pose));
+    [Node::LeftFoot, Node::RightFoot].map(|foot| turn * (at[foot.index()] - pose.hips_position))
+}

@@ -1,0 +1,192 @@
+//! Key poses, and pose graphs that choose among them.
+
+use super::{Moment, Source, SourceEvent};
+use crate::graph::{Graph, GraphPlayer};
+use crate::ik::Reach;
+use crate::pose::{KeyPose, PosePlayer};
+use crate::{Root, Wanted};
+use glam::DVec3;
+use sinew_body::humanoid::{Limb, Node};
+use sinew_world::CharacterFrame;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The key poses and pose graphs of one character, resolved on its body.
+#[derive(Clone, Debug, Default)]
+pub struct PoseBook {
+    /// By name.
+    pub poses: BTreeMap<String, KeyPose>,
+    /// By name.
+    pub graphs: BTreeMap<String, Graph>,
+}
+
+/// Aims at one key pose, or plays a pose graph.
+///
+/// ```
+/// use sinew_body::humanoid::Body;
+/// use sinew_control::pose::{KeyPose, STAND};
+/// use sinew_control::source::{KeyPoses, PoseBook};
+/// let book = PoseBook { poses: [(STAND.to_owned(), KeyPose::STAND)].into(), ..PoseBook::default() };
+/// let mut source = KeyPoses::new(book.into(), STAND, 1.0 / 240.0);
+/// assert_eq!(source.aim("crouch"), Err("no pose `crouch`; there are stand".to_owned()));
+/// ```
+#[derive(Clone, Debug)]
+pub struct KeyPoses {
+    book: Arc<PoseBook>,
+    player: PosePlayer,
+    pose: String,
+    graph: Option<(String, GraphPlayer)>,
+    signals: Vec<String>,
+    /// What is wanted at the end of the step.
+    now: Wanted,
+    step_secs: f64,
+}
+
+/// Signals that may wait for a step.
+const MAX_SIGNALS: usize = 100;
+
+impl KeyPoses {
+    /// In a pose of the book, or standing when it has none of that name; for steps of this length \[s\].
+    pub fn new(book: Arc<PoseBook>, pose: &str, step_secs: f64) -> KeyPoses {
+        let first = book.poses.get(pose).unwrap_or(&KeyPose::STAND);
+        let mut now = Wanted::STANDING;
+        for (joint, rotation) in now.joints.iter_mut().zip(first.rotations) {
+            joint.rotation = rotation;
+        }
+        let player = PosePlayer::new(first);
+        KeyPoses { book, player, pose: pose.to_owned(), graph: None, signals: Vec::new(), now, step_secs }
+    }
+
+    /// The name of the pose that is aimed at.
+    pub fn pose(&self) -> &str {
+        &self.pose
+    }
+
+    /// The graph that is played, and the state that it is in.
+    pub fn graph_state(&self) -> Option<(&str, &str)> {
+        let (name, player) = self.graph.as_ref()?;
+        Some((name, player.state_name(self.book.graphs.get(name)?)))
+    }
+
+    /// Whether it aims at this pose and at nothing else: no graph, no limb that reaches.
+    pub fn is_at(&self, name: &str) -> bool {
+        let reaches = Limb::ALL.into_iter().any(|limb| self.player.ik.of(limb).is_some());
+        self.pose == name && self.graph.is_none() && !reaches
+    }
+
+    /// Aims at a key pose; stops a graph and limbs that reach.
+    ///
+    /// # Errors
+    /// When there is no such pose: which there are.
+    pub fn aim(&mut self, name: &str) -> Result<(), String> {
+        let pose = self.book.poses.get(name).ok_or_else(|| unknown("pose", name, self.book.poses.keys()))?;
+        self.player.aim(pose);
+        self.player.ik.release_all();
+        self.pose = name.to_owned();
+        self.graph = None;
+        Ok(())
+    }
+
+    /// Starts a graph, at its first state or another.
+    ///
+    /// # Errors
+    /// When there is no such graph or state: which there are.
+    pub fn start_graph(&mut self, name: &str, state: Option<&str>) -> Result<(), String> {
+        let graph = self.book.graphs.get(name).ok_or_else(|| unknown("graph", name, self.book.graphs.keys()))?;
+        let mut player = GraphPlayer::new(graph, self.step_secs);
+        if let Some(state) = state
+            && !player.jump(graph, state)
+        {
+            let states: Vec<&str> = graph.state_names().collect();
+            return Err(format!("no state `{state}`; there are {}", states.join(", ")));
+        }
+        self.player.aim(player.pose(graph));
+        self.pose = player.pose_name(graph).to_owned();
+        self.graph = Some((name.to_owned(), player));
+        Ok(())
+    }
+
+    /// Sends a word to the graph. It is forgotten after the next step.
+    pub fn signal(&mut self, name: &str) {
+        if self.signals.len() < MAX_SIGNALS {
+            self.signals.push(name.to_owned());
+        }
+    }
+
+    /// The graph stops where it is, and limbs go back to the pose.
+    pub fn rest(&mut self) {
+        self.graph = None;
+        self.player.ik.release_all();
+    }
+
+    /// Makes a limb reach. False when it reaches there already. `effector` is the point that is to arrive, in the frame of the limb's end.
+    ///
+    /// # Errors
+    /// When the part belongs to no limb.
+    pub fn reach(&mut self, node: Node, target: DVec3, effector: DVec3) -> Result<bool, String> {
+        let limb = Limb::of(node).ok_or_else(|| format!("{} is no part of an arm or a leg", node.part()))?;
+        let is_new = self.player.ik.of(limb).is_none_or(|before| before.target != target);
+        self.player.ik.reach(limb, Reach { target, effector });
+        Ok(is_new)
+    }
+
+    /// Lets the limb of a part go back to the pose, or all limbs.
+    pub fn stop_reaching(&mut self, node: Option<Node>) {
+        match node.and_then(Limb::of) {
+            Some(limb) => self.player.ik.release(limb),
+            None => self.player.ik.release_all(),
+        }
+    }
+
+    fn step_graph(&mut self, moment: &Moment) -> Option<SourceEvent> {
+        let (name, player) = self.graph.as_mut()?;
+        let graph = self.book.graphs.get(name)?;
+        let transition = player.step(graph, moment.frame, moment.own, &self.signals)?;
+        self.player.aim(player.pose(graph));
+        player.pose_name(graph).clone_into(&mut self.pose);
+        let (from, to) = transition.names(graph);
+        let (graph, from, to) = (name.clone(), from.to_owned(), to.to_owned());
+        Some(SourceEvent::Graph { cause: transition.cause, graph, from, to })
+    }
+}
+
+impl Source for KeyPoses {
+    fn advance(&mut self, moment: &Moment) -> Option<SourceEvent> {
+        let event = if moment.has_poses_layer { self.step_graph(moment) } else { None };
+        self.signals.clear();
+        let Moment { frame, own, body, step_secs, .. } = *moment;
+        self.player.write(frame, own, body, step_secs, &mut self.now);
+        if let Some((name, player)) = &self.graph
+            && let Some(graph) = self.book.graphs.get(name)
+        {
+            player.steering(graph).apply(frame, own, &mut self.now);
+        }
+        event
+    }
+
+    fn root(&self) -> Root {
+        Root::Free
+    }
+
+    fn wanted(&self, _: f64, wanted: &mut Wanted) {
+        wanted.root = Root::Free;
+        for (joint, now) in wanted.joints.iter_mut().zip(&self.now.joints) {
+            (joint.rotation, joint.velocity) = (now.rotation, now.velocity);
+        }
+    }
+
+    fn firmness(&self, wanted: &mut Wanted) {
+        for (joint, now) in wanted.joints.iter_mut().zip(&self.now.joints) {
+            (joint.gain, joint.damping) = (now.gain, now.damping);
+        }
+    }
+
+    fn take_over(&mut self, character: &CharacterFrame) {
+        self.player.take_over(character);
+    }
+}
+
+fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a String>) -> String {
+    let known: Vec<&str> = known.map(String::as_str).collect();
+    format!("no {what} `{name}`; there are {}", known.join(", "))
+}

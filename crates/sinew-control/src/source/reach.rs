@@ -1,0 +1,305 @@
+//! A reach with arms, spine, head and legs (Huang, Kapadia and Terzopoulos 2011) as a source, from the order to standing again.
+
+use super::Source;
+use crate::{ReachHand, ReachOrder, Root, Wanted};
+use glam::DVec3;
+use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_reach::{Goal, Obstacle, Reacher, Start, Style, StyleError};
+use sinew_world::{Entity, Frame, Held};
+
+/// Where a hand is to come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Aimed {
+    /// A point, world \[m\].
+    Point(DVec3),
+    /// A prop's centre and how far from it, world \[m\].
+    Prop(usize, DVec3),
+    /// Where the centre of a prop is to come that the hand holds, world \[m\].
+    Held(usize, DVec3),
+}
+
+/// Left and right.
+pub const HANDS: [Node; 2] = [Node::LeftHand, Node::RightHand];
+
+/// How far along a reach is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    /// On its way, or there.
+    Reaching,
+    /// Standing up again; then back to what was before.
+    Rising,
+    /// Handing over since a time \[s\].
+    Leaving(f64),
+}
+
+/// A character that reaches, whatever it did before and does after.
+#[derive(Clone, Debug)]
+pub struct ReachSource {
+    reacher: Reacher,
+    order: ReachOrder,
+    /// When the reacher's time began, and when the last order came \[s\].
+    began_secs: f64,
+    ordered_secs: f64,
+    /// Counts the character's orders, from 1.
+    number: u64,
+    character: usize,
+    step_secs: f64,
+    aimed: [Option<Aimed>; 2],
+    phase: Phase,
+    /// The time is up.
+    has_arrived: bool,
+    /// The hands have been on their targets.
+    is_there: bool,
+    /// When the source before was left \[s\].
+    left_secs: f64,
+    has_resumed: bool,
+}
+
+/// What a reach does that has consequences outside.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum ReachStep {
+    Nothing,
+    Arrives(ReachArrival),
+    /// It stands here, and hands over from now on. The source before goes on from where it was left, when it has a time.
+    Leaves {
+        standing: Pose,
+        left_secs: Option<f64>,
+    },
+    Over,
+}
+
+/// The hands should be there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReachArrival {
+    /// Those that reach.
+    pub hands: Vec<HandArrival>,
+}
+
+/// One hand should be there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HandArrival {
+    /// Which.
+    pub node: Node,
+    /// How far it is from its target \[m\].
+    pub gap_m: f64,
+    /// What it takes hold of now.
+    pub holds: Option<Held>,
+}
+
+/// How near the hand must be to where it was sent, to grasp \[m\]: the body may be off its wanted pose.
+const GRASP_M: f64 = 0.04;
+
+/// How near counts as there \[m\].
+const THERE_M: f64 = 0.02;
+
+impl ReachSource {
+    /// For a character of the frame whose body begins like this now; it needs an [`order`](ReachSource::order) before it does anything.
+    ///
+    /// # Errors
+    /// When the style is out of range.
+    pub fn new(
+        body: &Body,
+        character: usize,
+        style: &Style,
+        start: &Start,
+        now_secs: f64,
+        step_secs: f64,
+    ) -> Result<ReachSource, StyleError> {
+        Ok(ReachSource {
+            reacher: Reacher::new(body, style, start)?,
+            order: ReachOrder::default(),
+            began_secs: now_secs,
+            ordered_secs: now_secs,
+            number: 0,
+            character,
+            step_secs,
+            aimed: [None; 2],
+            phase: Phase::Reaching,
+            has_arrived: false,
+            is_there: false,
+            left_secs: now_secs,
+            has_resumed: false,
+        })
+    }
+
+    /// Goes on to something else from where it is now, in another style.
+    ///
+    /// # Errors
+    /// When the style is out of range.
+    pub fn restyle(&mut self, style: &Style, now_secs: f64) -> Result<(), StyleError> {
+        self.reacher.advance(now_secs - self.began_secs);
+        self.reacher.set_style(style)
+    }
+
+    /// Reaches from now on; `number` counts the character's orders.
+    pub fn order(
+        &mut self,
+        order: &ReachOrder,
+        aimed: [Option<Aimed>; 2],
+        obstacles: &[Obstacle],
+        frame: &Frame,
+        number: u64,
+    ) {
+        self.number = number;
+        self.ordered_secs = frame.time_secs;
+        self.order = order.clone();
+        self.aimed = aimed;
+        self.phase = Phase::Reaching;
+        (self.has_arrived, self.is_there) = (false, false);
+        self.reacher.set_obstacles(obstacles);
+        let goal = self.goal(frame);
+        self.reacher.reach(&goal);
+    }
+
+    /// Who plans it. Its poses are what is wanted, not where the body is.
+    pub fn reacher(&self) -> &Reacher {
+        &self.reacher
+    }
+
+    /// Counts the character's orders, from 1.
+    pub fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// A time of the stage in the reacher's time \[s\].
+    pub fn own_secs(&self, time_secs: f64) -> f64 {
+        time_secs - self.began_secs
+    }
+
+    /// When the last order came, in the reacher's time \[s\].
+    pub fn since_secs(&self) -> f64 {
+        self.ordered_secs - self.began_secs
+    }
+
+    /// Both hands' targets now, world \[m\].
+    pub fn goal(&self, frame: &Frame) -> Goal {
+        let at = |side: usize| match self.aimed[side]? {
+            Aimed::Point(point) => Some(point),
+            Aimed::Prop(prop, offset) => Some(frame.props.get(prop)?.centre + offset),
+            Aimed::Held(prop, point) => {
+                let hand = frame.characters.get(self.character)?.part(HANDS[side]);
+                Some(point + (hand.centre - frame.props.get(prop)?.centre))
+            }
+        };
+        Goal { left: at(0), right: at(1) }
+    }
+
+    /// Whether it is on its way or there.
+    pub fn is_reaching(&self) -> bool {
+        self.phase == Phase::Reaching
+    }
+
+    /// Whether it carries out this order now.
+    pub fn is_about(&self, order: &ReachOrder) -> bool {
+        self.is_reaching() && self.order == *order
+    }
+
+    /// Whether a hand reaches for a prop now.
+    pub fn is_aimed(&self, side: usize, prop: usize) -> bool {
+        self.is_reaching() && matches!(self.aimed[side], Some(Aimed::Prop(aimed, _)) if aimed == prop)
+    }
+
+    /// Since when it hands over to the source before \[s\].
+    pub(super) fn leaving_secs(&self) -> Option<f64> {
+        match self.phase {
+            Phase::Leaving(since) => Some(since),
+            Phase::Reaching | Phase::Rising => None,
+        }
+    }
+
+    /// The wanted pose at a time of the stage \[s\].
+    pub fn pose_at(&self, time_secs: f64) -> Pose {
+        self.reacher.pose_at(self.own_secs(time_secs))
+    }
+
+    /// Lets go and stands up; then what was before goes on. False when it does so already.
+    pub fn leave(&mut self) -> bool {
+        let was_reaching = self.is_reaching();
+        if was_reaching {
+            self.reacher.release();
+            self.phase = Phase::Rising;
+        }
+        was_reaching
+    }
+
+    /// As [`leave`](ReachSource::leave), from where it is at a time of the stage \[s\].
+    pub fn leave_at(&mut self, now_secs: f64) -> bool {
+        self.reacher.advance(self.own_secs(now_secs));
+        self.leave()
+    }
+
+    /// A step: targets followed, grasps taken, the end handed over.
+    pub(super) fn step(&mut self, frame: &Frame) -> ReachStep {
+        let now_secs = frame.time_secs;
+        let own_secs = self.own_secs(now_secs);
+        self.reacher.advance(own_secs);
+        match self.phase {
+            Phase::Reaching => {
+                let goal = self.goal(frame);
+                if self.aimed.iter().any(|aimed| matches!(aimed, Some(Aimed::Prop(..) | Aimed::Held(..)))) {
+                    self.reacher.follow(&goal);
+                }
+                if !self.is_there && own_secs >= self.reacher.outcome().arrives_secs {
+                    return self.arrive(frame).map_or(ReachStep::Nothing, ReachStep::Arrives);
+                }
+                ReachStep::Nothing
+            }
+            Phase::Rising if own_secs >= self.reacher.done_secs() => {
+                self.phase = Phase::Leaving(now_secs);
+                let left_secs = (!std::mem::replace(&mut self.has_resumed, true)).then_some(self.left_secs);
+                ReachStep::Leaves { standing: self.reacher.pose_at(own_secs), left_secs }
+            }
+            Phase::Leaving(since) if now_secs - since >= super::HAND_OVER_SECS => ReachStep::Over,
+            Phase::Rising | Phase::Leaving(_) => ReachStep::Nothing,
+        }
+    }
+
+    /// The hands should be there: says whether they are, and grasps. One that was bumped arrives later.
+    fn arrive(&mut self, frame: &Frame) -> Option<ReachArrival> {
+        let is_late = std::mem::replace(&mut self.has_arrived, true);
+        let character = frame.characters.get(self.character)?;
+        let goal = self.goal(frame);
+        let is_reachable = self.reacher.outcome().reason.is_none();
+        let mut arrival = ReachArrival::default();
+        let mut worst: f64 = 0.0;
+        for (side, target) in [goal.left, goal.right].into_iter().enumerate() {
+            let Some(target) = target else { continue };
+            let node = HANDS[side];
+            let gap_m = (character.part(node).centre - target).length();
+            worst = worst.max(gap_m);
+            let holds = match self.aimed[side] {
+                Some(Aimed::Prop(prop, _)) if self.order.grasp && is_reachable && gap_m < GRASP_M => Some(Held {
+                    character: self.character,
+                    node,
+                    object: Entity::Prop(prop),
+                    // Both hands: the second holds softly, or the two would fight.
+                    soft: side == 1 && self.order.hand == ReachHand::Both,
+                    break_force_n: None,
+                }),
+                _ => None,
+            };
+            arrival.hands.push(HandArrival { node, gap_m, holds });
+        }
+        let is_there = worst < THERE_M;
+        if is_late && !is_there {
+            return None;
+        }
+        self.is_there = is_there || !is_reachable;
+        let hands = self.reacher.hands_at(self.reacher.outcome().arrives_secs);
+        for arrived in arrival.hands.iter().filter(|hand| hand.holds.is_some()) {
+            let side = usize::from(arrived.node == HANDS[1]);
+            self.aimed[side] = Some(Aimed::Point(hands[side]));
+        }
+        Some(arrival)
+    }
+}
+
+impl Source for ReachSource {
+    fn root(&self) -> Root {
+        Root::Placed
+    }
+
+    fn wanted(&self, at_secs: f64, wanted: &mut Wanted) {
+        wanted.follow_poses(&self.pose_at(at_secs), &self.pose_at(at_secs + self.step_secs), self.step_secs);
+    }
+}

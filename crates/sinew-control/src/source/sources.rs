@@ -1,0 +1,280 @@
+//! What a character follows, and whose word counts.
+
+use super::reach::ReachStep;
+use super::{KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, handed_over};
+use crate::{FreeRoot, Root, Wanted};
+use sinew_body::humanoid::{Body, Pose};
+use sinew_world::{CharacterFrame, Frame};
+use std::any::Any;
+use std::sync::Arc;
+
+/// One character's sources: its own; a live performer, for which the own one is the understudy; and a reach, which begins in either
+/// and ends in either.
+#[derive(Debug)]
+pub struct Sources {
+    body: Body,
+    book: Arc<PoseBook>,
+    /// The pose of the book that key poses begin in.
+    first: String,
+    own: Box<dyn Source>,
+    performer: Option<Performer>,
+    reach: Option<ReachSource>,
+    /// Where the hips are when no source places them.
+    root: FreeRoot,
+    step_secs: f64,
+}
+
+impl Sources {
+    /// Key poses, in the pose `first` of the book, with the hips where `start` has them.
+    pub fn new(body: &Body, book: Arc<PoseBook>, first: &str, start: &Pose, step_secs: f64) -> Sources {
+        Sources {
+            own: Box::new(KeyPoses::new(Arc::clone(&book), first, step_secs)),
+            body: body.clone(),
+            book,
+            first: first.to_owned(),
+            performer: None,
+            reach: None,
+            root: FreeRoot::at(start, None),
+            step_secs,
+        }
+    }
+
+    /// Follows another source of its own from now on: a performer is left, a reach ends.
+    pub fn follow(&mut self, own: Box<dyn Source>) {
+        self.own = own;
+        self.leave_others();
+    }
+
+    /// The body that it is for.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Has a live performer from now on.
+    pub fn set_performer(&mut self, performer: Performer) {
+        self.performer = Some(performer);
+    }
+
+    /// Reaches from now on, out of what it does.
+    pub fn set_reach(&mut self, reach: ReachSource) {
+        self.reach = Some(reach);
+    }
+
+    /// Its own source, whether it acts or not.
+    pub fn own(&self) -> &dyn Source {
+        self.own.as_ref()
+    }
+
+    /// Its own source, where that is key poses.
+    pub fn key_poses(&self) -> Option<&KeyPoses> {
+        (self.own.as_ref() as &dyn Any).downcast_ref()
+    }
+
+    /// Its own source, where that is key poses, to change it.
+    pub fn key_poses_mut(&mut self) -> Option<&mut KeyPoses> {
+        (self.own.as_mut() as &mut dyn Any).downcast_mut()
+    }
+
+    /// The performer, whether it is followed or not.
+    pub fn performer(&self) -> Option<&Performer> {
+        self.performer.as_ref()
+    }
+
+    /// The performer, to give it samples.
+    pub fn performer_mut(&mut self) -> Option<&mut Performer> {
+        self.performer.as_mut()
+    }
+
+    /// The reach, until it has handed over.
+    pub fn reach(&self) -> Option<&ReachSource> {
+        self.reach.as_ref()
+    }
+
+    /// The reach, to change it.
+    pub fn reach_mut(&mut self) -> Option<&mut ReachSource> {
+        self.reach.as_mut()
+    }
+
+    /// The reach that another one can go on from, taken out. One that hands over already is over then.
+    pub fn take_reach(&mut self) -> Option<ReachSource> {
+        self.reach.take().filter(|reach| reach.leaving_secs().is_none())
+    }
+
+    /// Aims at a key pose, whatever was followed. False when it aims there already.
+    ///
+    /// # Errors
+    /// When there is no such pose: which there are.
+    pub fn aim(&mut self, name: &str) -> Result<bool, String> {
+        let is_alone = self.reach.is_none() && !self.is_performed();
+        if is_alone && self.key_poses().is_some_and(|poses| poses.is_at(name)) {
+            return Ok(false);
+        }
+        self.follow_key_poses(|poses| poses.aim(name))?;
+        Ok(true)
+    }
+
+    /// Starts a pose graph, whatever was followed.
+    ///
+    /// # Errors
+    /// When there is no such graph or state: which there are.
+    pub fn start_graph(&mut self, name: &str, state: Option<&str>) -> Result<(), String> {
+        self.follow_key_poses(|poses| poses.start_graph(name, state))
+    }
+
+    /// Follows its performer, or its own source instead. A motion is over then: what is left for later are key poses.
+    ///
+    /// # Errors
+    /// When it has no performer.
+    pub fn follow_performer(&mut self, on: bool) -> Result<(), String> {
+        let Some(performer) = &mut self.performer else { return Err(NO_PERFORMER.to_owned()) };
+        performer.follow(on);
+        if on {
+            match self.key_poses_mut() {
+                Some(poses) => poses.rest(),
+                None => self.own = Box::new(KeyPoses::new(Arc::clone(&self.book), &self.first, self.step_secs)),
+            }
+        }
+        Ok(())
+    }
+
+    /// Changes the key poses and follows them; those of a character that has followed something else begin in their first pose.
+    fn follow_key_poses(&mut self, change: impl FnOnce(&mut KeyPoses) -> Result<(), String>) -> Result<(), String> {
+        if let Some(poses) = self.key_poses_mut() {
+            change(poses)?;
+        } else {
+            let mut poses = KeyPoses::new(Arc::clone(&self.book), &self.first, self.step_secs);
+            change(&mut poses)?;
+            self.own = Box::new(poses);
+        }
+        self.leave_others();
+        Ok(())
+    }
+
+    /// A performer is left, a reach ends.
+    fn leave_others(&mut self) {
+        if let Some(reach) = &mut self.reach {
+            reach.leave();
+        }
+        if let Some(performer) = &mut self.performer {
+            performer.leave();
+        }
+    }
+
+    fn is_performed(&self) -> bool {
+        self.performer.as_ref().is_some_and(Performer::is_followed)
+    }
+
+    /// The source whose word counts, a reach apart: the performer, else its own.
+    fn acting(&self) -> &dyn Source {
+        match &self.performer {
+            Some(performer) if performer.is_followed() => performer.source(),
+            _ => self.own.as_ref(),
+        }
+    }
+
+    /// What is wanted at a time of the stage \[s\]: of the reach where there is one, which hands over to what acts beside it. This is the
+    /// one place that decides whose word counts.
+    pub fn wanted(&self, at_secs: f64, wanted: &mut Wanted) {
+        let Some(reach) = &self.reach else { return self.acting().wanted(at_secs, wanted) };
+        let Some(since_secs) = reach.leaving_secs() else { return reach.wanted(at_secs, wanted) };
+        let mut pose_at = |secs: f64| {
+            self.acting().wanted(secs, wanted);
+            self.place(wanted);
+            handed_over(&reach.pose_at(secs), &wanted.pose, secs - since_secs)
+        };
+        let (now, next) = (pose_at(at_secs), pose_at(at_secs + self.step_secs));
+        wanted.follow_poses(&now, &next, self.step_secs);
+    }
+
+    /// How firmly joints are to be held; a reach holds them with their own gains.
+    pub fn firmness(&self, wanted: &mut Wanted) {
+        match &self.reach {
+            Some(reach) => reach.firmness(wanted),
+            None => self.acting().firmness(wanted),
+        }
+    }
+
+    /// Whether what is wanted says where the hips are.
+    pub fn root(&self) -> Root {
+        if self.reach.is_some() { Root::Placed } else { self.acting().root() }
+    }
+
+    /// The whole wanted pose at a time of the stage \[s\].
+    pub fn pose_at(&self, at_secs: f64) -> Pose {
+        let mut wanted = Wanted::STANDING;
+        self.wanted(at_secs, &mut wanted);
+        self.place(&mut wanted);
+        wanted.pose
+    }
+
+    /// The pose of its own source at a time of the stage \[s\], whether it acts or not.
+    pub fn own_pose_at(&self, at_secs: f64) -> Pose {
+        let mut wanted = Wanted::STANDING;
+        self.own.wanted(at_secs, &mut wanted);
+        self.place(&mut wanted);
+        wanted.pose
+    }
+
+    fn place(&self, wanted: &mut Wanted) {
+        if wanted.root == Root::Free {
+            wanted.pose = self.root.pose(&self.body, wanted);
+        }
+    }
+
+    /// Places a wanted pose whose source knows no place, once a motion frame.
+    pub fn place_root(&mut self, character: &CharacterFrame, wanted: &mut Wanted) {
+        self.root.place(&self.body, character, wanted);
+    }
+
+    /// A tracker begins with the body: a source that knows no place has it stand where it is. `sole_m` as in [`FreeRoot::at`].
+    pub fn begin_root(&mut self, character: &CharacterFrame, sole_m: Option<f64>) {
+        self.root = FreeRoot::at(&character.pose(), sole_m);
+        if sole_m.is_some() {
+            self.root.stand_where_it_is(character);
+        }
+    }
+
+    /// The body is held to its place again: a source that knows no place has it stand where it is.
+    pub fn stand_where_it_is(&mut self, character: &CharacterFrame) {
+        if self.root() == Root::Free {
+            self.root.stand_where_it_is(character);
+        }
+    }
+
+    /// Sets out from where the body is: something else has moved it until now.
+    pub fn take_over(&mut self, character: &CharacterFrame) {
+        self.own.take_over(character);
+    }
+
+    /// Goes on by a step, everything: what does not act now may act again. What is to be told is put behind `events`.
+    /// `own` is the character's place in the frame; without the layer of key poses, graphs stay in their states.
+    pub fn advance(&mut self, frame: &Frame, own: usize, has_poses_layer: bool, events: &mut Vec<SourceEvent>) {
+        let now_secs = frame.time_secs;
+        let understudy = self.performer.as_ref().filter(|performer| performer.has_understudy_on());
+        let understudy = understudy.map(|_| self.pose_at(now_secs));
+        if let Some(performer) = &mut self.performer {
+            let change = performer.advance(now_secs, self.step_secs, understudy.as_ref());
+            events.extend(change.map(SourceEvent::Stream));
+            if change.is_some_and(|change| change.replaces_understudy) {
+                // There is one.
+                let _ = self.follow_performer(true);
+            }
+        }
+        match self.reach.as_mut().map_or(ReachStep::Nothing, |reach| reach.step(frame)) {
+            ReachStep::Nothing => {}
+            ReachStep::Arrives(arrival) => events.push(SourceEvent::Reach(arrival)),
+            ReachStep::Leaves { standing, left_secs } => {
+                self.root.stand_at(&standing);
+                if let Some(left_secs) = left_secs {
+                    self.own.resume(&self.body, left_secs, now_secs, &standing);
+                }
+            }
+            ReachStep::Over => self.reach = None,
+        }
+        let moment = Moment { frame, own, body: &self.body, step_secs: self.step_secs, has_poses_layer };
+        events.extend(self.own.advance(&moment));
+    }
+}
+
+/// Why there is nobody to follow.
+pub const NO_PERFORMER: &str = "it has no performer; write source = { live = {} } in its table";

@@ -1,0 +1,77 @@
+//! The tracker `kd` among the others.
+
+use super::KdTracker;
+use crate::Wanted;
+use crate::tracker::{Honours, TakeOver, Tracker, TrackerKind, Wants};
+use sinew_body::humanoid::{Node, Pose};
+use sinew_world::World;
+
+/// How long a body takes to come to what is wanted when the tracker begins in the middle of a run \[s\].
+const TAKE_OVER_SECS: f64 = 0.5;
+
+impl KdTracker {
+    /// See [`Tracker::honours`].
+    pub const HONOURS: Honours = Honours { gains: true, torques: true, springs: false };
+}
+
+impl Tracker for KdTracker {
+    fn kind(&self) -> TrackerKind {
+        TrackerKind::Kd
+    }
+
+    fn honours(&self) -> Honours {
+        KdTracker::HONOURS
+    }
+
+    fn wants(&self) -> Wants {
+        if self.wants_pose() { Wants::Pose } else { Wants::Firmness }
+    }
+
+    fn locks_feet(&self) -> bool {
+        true
+    }
+
+    /// At the world's start the body moves as the motion does that it is in; later it begins where and as it is.
+    fn take_over(&mut self, start: &TakeOver, world: &mut World, character: usize) {
+        if world.frame().step > 0 {
+            self.begin_where_it_is(TAKE_OVER_SECS);
+            return;
+        }
+        let Some(motion) = start.motion else { return };
+        let Some(now) = world.frame().characters.get(character).map(|frame| frame.pose()) else { return };
+        let frame_secs = self.clock.time_step_secs();
+        let before = led_to(&motion(0.0), &motion(frame_secs));
+        let step_secs = world.settings().step_secs();
+        let Some(body) = world.body(character) else { return };
+        self.restart(body, &before, &now, step_secs);
+        self.launch(world, character);
+    }
+
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize) {
+        if self.wants_pose() {
+            self.wanted(&wanted.pose);
+        }
+        for node in Node::ALL {
+            let at = node.index();
+            self.joint_gain[at] = wanted.joints[at].gain;
+            self.torque[at] = wanted.joints[at].torque;
+        }
+        self.physics_step(world, character);
+    }
+
+    fn release(&mut self, world: &mut World, character: usize) {
+        world.set_limp(character);
+        world.set_reaction_body(character, None);
+        world.set_passes_own(character, [0; Node::COUNT]);
+    }
+}
+
+/// The pose that led to one, by the way that goes on to the next.
+fn led_to(now: &Pose, next: &Pose) -> Pose {
+    let mut pose = *now;
+    pose.hips_position += pose.hips_position - next.hips_position;
+    for (rotation, next) in pose.world.iter_mut().zip(next.world) {
+        *rotation = (*rotation * next.conjugate() * *rotation).normalize();
+    }
+    pose
+}

@@ -1,0 +1,36 @@
+//! Follows nothing: joints are limp, and the body falls.
+
+use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
+use crate::Wanted;
+use sinew_world::World;
+
+/// The tracker `none`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limp;
+
+impl Limp {
+    /// See [`Tracker::honours`].
+    pub const HONOURS: Honours = Honours::NOTHING;
+}
+
+impl Tracker for Limp {
+    fn kind(&self) -> TrackerKind {
+        TrackerKind::None
+    }
+
+    fn honours(&self) -> Honours {
+        Limp::HONOURS
+    }
+
+    fn wants(&self) -> Wants {
+        Wants::Nothing
+    }
+
+    fn take_over(&mut self, _: &TakeOver, world: &mut World, character: usize) {
+        world.set_limp(character);
+    }
+
+    fn follow(&mut self, _: &Wanted, _: &mut World, _: usize) {}
+
+    fn release(&mut self, _: &mut World, _: usize) {}
+}

@@ -1,0 +1,93 @@
+//! What a character is to do: the answer of every [`Source`](crate::source::Source), the order to every
+//! [`Tracker`](crate::tracker::Tracker).
+
+use glam::{DQuat, DVec3};
+use sinew_body::humanoid::{Node, Pose, log};
+
+/// What one joint is to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointTarget {
+    /// Wanted `parent_from_node`.
+    pub rotation: DQuat,
+    /// Wanted angular velocity against the parent, in the node's frame \[rad/s\].
+    pub velocity: DVec3,
+    /// Factor on the joint's own stiffness, the pose's gain k_sp (Shapiro et al. 2007, EQ3); 0 leaves it limp.
+    pub gain: f64,
+    /// Factor on the joint's own damping.
+    pub damping: f64,
+    /// Torque on the node against its parent on top, in world axes \[N m\].
+    pub torque: DVec3,
+}
+
+/// Whether the wanted pose says where the hips are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Root {
+    /// It says angles only, as key poses do; [`FreeRoot`](crate::FreeRoot) finds a place for trackers that follow poses.
+    #[default]
+    Free,
+    /// The hips are wanted where [`Wanted::pose`] has them, as in a clip.
+    Placed,
+}
+
+/// What the whole body is to do.
+///
+/// Trackers that drive joints read [`joints`](Wanted::joints), trackers that hold parts to their places read
+/// [`pose`](Wanted::pose); both say the same.
+///
+/// ```
+/// use sinew_body::humanoid::{Node, exp};
+/// use sinew_control::{Root, Wanted};
+/// let mut wanted = Wanted::STANDING;
+/// wanted.joint_mut(Node::LeftLowerArm).rotation = exp(glam::DVec3::X * -0.5);
+/// assert_eq!(wanted.root, Root::Free);
+/// assert_eq!(wanted.joint(Node::LeftLowerArm).gain, 1.0);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// By [`Node::index`]; the hips' entry is unused.
+    pub joints: [JointTarget; Node::COUNT],
+    /// The whole pose, world. With a free [`root`](Wanted::root) it holds nothing until [`FreeRoot`](crate::FreeRoot) has placed it.
+    pub pose: Pose,
+    /// Whether the pose's hips are where they are wanted.
+    pub root: Root,
+}
+
+impl JointTarget {
+    /// Straight, with the joint's own gains.
+    pub const REST: JointTarget =
+        JointTarget { rotation: DQuat::IDENTITY, velocity: DVec3::ZERO, gain: 1.0, damping: 1.0, torque: DVec3::ZERO };
+}
+
+impl Wanted {
+    /// Standing, arms hanging, with the joints' own gains.
+    pub const STANDING: Wanted =
+        Wanted { joints: [JointTarget::REST; Node::COUNT], pose: Pose::STANDING, root: Root::Free };
+
+    /// One joint.
+    pub fn joint(&self, node: Node) -> &JointTarget {
+        &self.joints[node.index()]
+    }
+
+    /// One joint, to change it.
+    pub fn joint_mut(&mut self, node: Node) -> &mut JointTarget {
+        &mut self.joints[node.index()]
+    }
+
+    /// Follows a motion: the pose now, with the velocity of its joints from the one that comes so much later \[s\].
+    pub fn follow_poses(&mut self, now: &Pose, next: &Pose, ahead_secs: f64) {
+        for node in Node::ALL.into_iter().skip(1) {
+            let joint = self.joint_mut(node);
+            let (local, after) = (now.local(node), next.local(node));
+            joint.rotation = local.normalize();
+            joint.velocity = log((local.conjugate() * after).normalize()) / ahead_secs;
+        }
+        (self.pose, self.root) = (*now, Root::Placed);
+    }
+
+    /// The pose of these joints with the hips somewhere: position \[m\] and `world_from_hips`.
+    pub fn pose_with_hips(&self, position: DVec3, rotation: DQuat) -> Pose {
+        let mut locals = self.joints.map(|joint| joint.rotation);
+        locals[0] = rotation;
+        Pose::from_locals(position, &locals)
+    }
+}

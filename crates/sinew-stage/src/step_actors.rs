@@ -1,0 +1,94 @@
+//! From what actors want to what their bodies do.
+
+use crate::Stage;
+use crate::basis::basis_for;
+use crate::event::{Cause, CharacterEffect, Effect};
+use crate::scene::CharacterSpec;
+use sinew_control::graph::Cause as GraphCause;
+use sinew_control::source::{SourceEvent, StreamChange};
+use sinew_control::tracker::{KdTracker, KinematicTracker, Limp, PdTracker, ResponseTracker, Tracker, TrackerKind};
+
+impl Stage {
+    /// Every actor decides, and its tracker tells the world.
+    pub(crate) fn step_actors(&mut self) {
+        let frame_secs = self.frame_secs();
+        let mut events = Vec::new();
+        for index in 0..self.actors.len() {
+            self.end_passing(index);
+            self.actors[index].advance(&self.world, &mut events);
+            for event in events.drain(..) {
+                self.tell(index, event);
+            }
+            self.actors[index].follow(&mut self.world, frame_secs);
+        }
+    }
+
+    /// Notes what a source of an actor has to tell, and does what follows from it.
+    fn tell(&mut self, index: usize, event: SourceEvent) {
+        let (cause, effect) = match event {
+            SourceEvent::Stream(StreamChange { presence, replaces_understudy }) => {
+                (Cause::Stream, CharacterEffect::Performer { presence, replaces_understudy })
+            }
+            SourceEvent::Graph { cause, graph, from, to } => {
+                let cause = match cause {
+                    GraphCause::Touch(touch) => Cause::GraphTouch {
+                        touched: [touch.a, touch.b].map(|thing| self.cast.name_of(thing)),
+                        impulse_n_s: touch.impulse.length(),
+                    },
+                    GraphCause::Timer => Cause::GraphTimer,
+                    GraphCause::Signal => Cause::GraphSignal,
+                    GraphCause::Sensor(value) => Cause::GraphSensor { value },
+                };
+                (cause, CharacterEffect::Transition { graph, from, to })
+            }
+            SourceEvent::Reach(arrival) => return self.reach_arrives(index, &arrival),
+        };
+        let name = self.cast.characters()[index].clone();
+        self.note(cause, Effect::of(name, effect));
+    }
+
+    fn frame_secs(&self) -> f64 {
+        1.0 / f64::from(self.scene.stage.motion_hz)
+    }
+
+    /// Follows by another tracker from the next step on, from where the body is now.
+    ///
+    /// # Errors
+    /// When the response finds no coordinates in the motion; all stays as it was.
+    pub(crate) fn set_tracker(&mut self, index: usize, kind: TrackerKind) -> Result<(), String> {
+        let Some(spec) = self.scene.characters.values().nth(index) else { return Ok(()) };
+        let tracker = self.tracker(index, spec, kind)?;
+        self.actors[index].set_tracker(tracker, spec.position_m[1], &mut self.world);
+        Ok(())
+    }
+
+    /// A tracker for a character as the scene has it, at rest where the body is now.
+    fn tracker(&self, index: usize, spec: &CharacterSpec, kind: TrackerKind) -> Result<Box<dyn Tracker>, String> {
+        let (actor, frame_secs) = (&self.actors[index], self.frame_secs());
+        let now = self.world.frame().characters[index].pose();
+        let prop = |name: &String| self.cast.prop(name).ok_or_else(|| format!("no prop `{name}`"));
+        Ok(match kind {
+            TrackerKind::Kinematic => Box::new(KinematicTracker::new(frame_secs, &now)),
+            TrackerKind::Pd => Box::new(PdTracker::with(actor.springs().clone())),
+            TrackerKind::None => Box::new(Limp),
+            TrackerKind::Kd => {
+                let settings = spec.kd.settings(|part| spec.node(part));
+                let mut tracker = KdTracker::new(actor.body(), settings, frame_secs, &now);
+                tracker.stand_on(&self.world, spec.kd.stands_on.as_ref().map(prop).transpose()?);
+                Box::new(tracker)
+            }
+            TrackerKind::Response => {
+                let motion = actor.sources().own().motion();
+                let (basis, settings) = basis_for(spec, actor.body(), motion, frame_secs)?;
+                let mut tracker = ResponseTracker::new(actor.body().clone(), basis, settings, &now);
+                tracker.stand_on(&self.world, spec.response.stands_on.as_ref().map(prop).transpose()?);
+                if let Some(part) = &spec.response.keep_upright {
+                    let node = spec.node(part).ok_or_else(|| format!("no part or alias `{part}`"))?;
+                    tracker.keep_upright(Some(node));
+                }
+                tracker.avoid(&spec.response.avoid.iter().map(prop).collect::<Result<Vec<usize>, String>>()?);
+                Box::new(tracker)
+            }
+        })
+    }
+}
