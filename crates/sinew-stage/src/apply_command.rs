@@ -54,9 +54,7 @@ impl Stage {
                 CharacterEffect::Graph { graph: name.clone() }
             }
             Action::Signal { name } => {
-                if let Some(poses) = self.actors[character].sources.key_poses_mut() {
-                    poses.signal(name);
-                }
+                self.actors[character].sources.signal(name);
                 CharacterEffect::Signal { signal: name.clone() }
             }
             Action::Ik { link, target_m } => {

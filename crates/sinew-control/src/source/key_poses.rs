@@ -106,13 +106,6 @@ impl KeyPoses {
         Ok(())
     }
 
-    /// Sends a word to the graph. It is forgotten after the next step.
-    pub fn signal(&mut self, name: &str) {
-        if self.signals.len() < MAX_SIGNALS {
-            self.signals.push(name.to_owned());
-        }
-    }
-
     /// The graph stops where it is, and limbs go back to the pose.
     pub fn rest(&mut self) {
         self.graph = None;
@@ -151,8 +144,10 @@ impl KeyPoses {
 }
 
 impl Source for KeyPoses {
-    fn advance(&mut self, moment: &Moment) -> Option<SourceEvent> {
-        let event = if moment.has_poses_layer { self.step_graph(moment) } else { None };
+    fn advance(&mut self, moment: &Moment, events: &mut Vec<SourceEvent>) {
+        if moment.has_poses_layer {
+            events.extend(self.step_graph(moment));
+        }
         self.signals.clear();
         let Moment { frame, own, body, step_secs, .. } = *moment;
         self.player.write(frame, own, body, step_secs, &mut self.now);
@@ -161,7 +156,13 @@ impl Source for KeyPoses {
         {
             player.steering(graph).apply(frame, own, &mut self.now);
         }
-        event
+    }
+
+    /// It is forgotten after the next step.
+    fn signal(&mut self, word: &str) {
+        if self.signals.len() < MAX_SIGNALS {
+            self.signals.push(word.to_owned());
+        }
     }
 
     fn root(&self) -> Root {

@@ -74,10 +74,14 @@ pub enum SourceEvent {
 /// assert!((wanted.pose.hips_position.z - 0.05).abs() < 1e-12);
 /// ```
 pub trait Source: Any + Debug + Send + Sync {
-    /// Goes on by a step of physics. Returns what is to be told.
-    fn advance(&mut self, moment: &Moment) -> Option<SourceEvent> {
-        let _ = moment;
-        None
+    /// Goes on by a step of physics. What is to be told is put behind `events`.
+    fn advance(&mut self, moment: &Moment, events: &mut Vec<SourceEvent>) {
+        let _ = (moment, events);
+    }
+
+    /// A word for pose graphs that wait for it.
+    fn signal(&mut self, word: &str) {
+        let _ = word;
     }
 
     /// Whether it says where the hips are.

@@ -241,6 +241,11 @@ impl Sources {
         }
     }
 
+    /// A word for pose graphs that wait for it.
+    pub fn signal(&mut self, word: &str) {
+        self.own.signal(word);
+    }
+
     /// Sets out from where the body is: something else has moved it until now.
     pub fn take_over(&mut self, character: &CharacterFrame) {
         self.own.take_over(character);
@@ -272,7 +277,7 @@ impl Sources {
             ReachStep::Over => self.reach = None,
         }
         let moment = Moment { frame, own, body: &self.body, step_secs: self.step_secs, has_poses_layer };
-        events.extend(self.own.advance(&moment));
+        self.own.advance(&moment, events);
     }
 }
 
