@@ -4,7 +4,7 @@
 use crate::walker::{Scene, Walk, angle_deg, ball};
 use glam::DVec3;
 use sinew_body::humanoid::Node;
-use sinew_control::tracker::KinematicTracker;
+use sinew_control::tracker::{KinematicTracker, Tracker as _};
 use sinew_world::{Entity, Form, Motion, PropSpec, Solid, WorldSettings};
 
 /// Motion frame in which a thrown ball arrives, and in which it sets out.

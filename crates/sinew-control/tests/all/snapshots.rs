@@ -11,6 +11,7 @@ use sinew_control::ik::Reach;
 use sinew_control::perform::{LiveSettings, LiveSource, PerformerSample};
 use sinew_control::pose::{KeyPose, PosePlayer, read_poses, resolve_poses};
 use sinew_control::reflex::{Balance, BalanceSettings, Reflex, Sense};
+use sinew_control::source::Source as _;
 use sinew_snapshot::{FrameKind, Snapshot};
 use sinew_world::Frame;
 use std::collections::BTreeMap;
@@ -145,7 +146,8 @@ fn a_live_performer_that_is_restored_goes_on_to_the_same_bits() {
             samples.iter().filter(|(when, _)| *when == at).for_each(|(_, sample)| source.receive(sample, now));
             let presence = source.advance(now, STEP_SECS);
             let mut target = Wanted::STANDING;
-            source.write(&mut target);
+            source.wanted(now + STEP_SECS, &mut target);
+            source.firmness(&mut target);
             (bits(&target), presence, source.counters(), source.delay_secs().to_bits())
         },
     );
