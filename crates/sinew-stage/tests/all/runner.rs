@@ -102,3 +102,11 @@ fn a_stage_that_has_already_run_has_no_whole_take() {
     begun.step();
     assert!(Runner::new(begun).with_take().take().is_none());
 }
+
+/// An engine keeps what it shares between its threads in a resource of its own, and asks this of it.
+#[test]
+fn a_stage_can_be_a_resource_of_an_engine() {
+    fn is_shared<T: Send + Sync + 'static>() {}
+    is_shared::<Stage>();
+    is_shared::<Runner>();
+}
