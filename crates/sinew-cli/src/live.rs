@@ -5,6 +5,7 @@ use sinew::control::{Action, Command};
 use sinew::live::{Mirror, Performers};
 use sinew::stage::take::{Stamped, due};
 use sinew::stage::{Observer, Scene, Stage, Take};
+use sinew::world::CharacterId;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, ToSocketAddrs};
 use std::path::PathBuf;
 
@@ -82,9 +83,10 @@ fn mirror(scene: &Scene, argument: &str) -> Result<Mirror> {
             .characters
             .keys()
             .position(|known| known == name)
+            .map(CharacterId::first_in)
             .with_context(|| format!("--vmc-out: no character `{name}`; there are {}", known()))?,
         None if scene.characters.is_empty() => bail!("--vmc-out: the scene has no character"),
-        None => 0,
+        None => CharacterId::first_in(0),
     };
     Ok(Mirror::open(character, resolve(address)?)?)
 }

@@ -13,6 +13,7 @@ use glam::DVec3;
 use performer::{Act, HIT_SECS, Performer, standing};
 use sinew_body::humanoid::Node;
 use sinew_control::tracker::KdSettings;
+use sinew_world::CharacterId;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -38,7 +39,7 @@ fn stretches(criterion: &mut Criterion, name: &str, performer: &Performer, is_hi
                 for step in 0..now {
                     let secs = (step % 240) as f64 / 240.0;
                     if is_hit && secs < HIT_SECS {
-                        act.world.push_part(0, Node::Chest, DVec3::Z * (20.0 / HIT_SECS), None);
+                        act.world.push_part(CharacterId::first_in(0), Node::Chest, DVec3::Z * (20.0 / HIT_SECS), None);
                     }
                     let start = Instant::now();
                     act.track();

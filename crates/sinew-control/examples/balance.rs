@@ -14,6 +14,7 @@ use pushed::{GUARD, KNEES_BENT, Outcome, Place, Push, STRIDE, Standing, Turns, o
 use sinew_body::humanoid::{Body, Node, log};
 use sinew_control::reflex::BalanceSettings;
 use sinew_picture::{Arrow, Camera, Capsule, Figure, Filmstrip, Panel, Shade, Style};
+use sinew_world::CharacterId;
 
 fn env(name: &str, or: f64) -> f64 {
     std::env::var(name).ok().and_then(|value| value.parse().ok()).unwrap_or(or)
@@ -81,7 +82,7 @@ fn report(standing: &Standing) {
         standing
             .world
             .frame()
-            .touching(sinew_world::Entity::Part(0, node))
+            .touching(sinew_world::Entity::Part(CharacterId::first_in(0), node))
             .map(|contact| contact.impulse.y * 240.0)
             .sum()
     };

@@ -8,7 +8,7 @@ use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_picture::{Arrow, Camera, Capsule, Figure, Filmstrip, Panel, Shade};
 use sinew_response::PointForce;
-use sinew_world::{Form, Motion, PropSpec, Solid, WorldSettings};
+use sinew_world::{Form, Motion, PropId, PropSpec, Solid, WorldSettings};
 use walker::{Scene, Walk, ball};
 
 const RADIUS_M: f64 = 0.1;
@@ -120,7 +120,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             scene.frame();
             forces.extend(scene.tracker.forces().iter().filter(|force| force.force_n.length() > 5.0));
             if kind == "platform" && scene.frame == begins + 12 {
-                scene.world.accelerate_prop(0, DVec3::ZERO);
+                scene.world.accelerate_prop(PropId::first_in(0), DVec3::ZERO);
             }
         }
     }

@@ -13,6 +13,7 @@ use sinew_control::perform::{LiveSettings, LiveSource};
 use sinew_live::vmc::VmcReader;
 use sinew_live::{ClipPlayer, Impairment, Latency, Mirror, Performers};
 use sinew_stage::{Scene, Stage};
+use sinew_world::CharacterId;
 use std::fmt::Write;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::Arc;
@@ -98,7 +99,8 @@ fn latency(actors: u16, hz: f64, secs: f64) -> Ran {
         .collect();
     let viewer = UdpSocket::bind("127.0.0.1:0").unwrap();
     let to: SocketAddr = viewer.local_addr().unwrap();
-    let mut mirrors: Vec<Mirror> = (0..usize::from(actors)).map(|actor| Mirror::open(actor, to).unwrap()).collect();
+    let mut mirrors: Vec<Mirror> =
+        (0..usize::from(actors)).map(|actor| Mirror::open(CharacterId::first_in(actor), to).unwrap()).collect();
     let began = Instant::now();
     let steps = (secs * PHYSICS_HZ) as u64;
     let mut late = 0u64;

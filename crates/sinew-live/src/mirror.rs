@@ -3,6 +3,7 @@
 use crate::vmc::VmcFrame;
 use sinew_control::perform::PerformerSample;
 use sinew_stage::Stage;
+use sinew_world::CharacterId;
 use std::net::{SocketAddr, UdpSocket};
 
 /// Sends one character's pose.
@@ -10,16 +11,16 @@ use std::net::{SocketAddr, UdpSocket};
 pub struct Mirror {
     socket: UdpSocket,
     to: SocketAddr,
-    character: usize,
+    character: CharacterId,
     number: u64,
 }
 
 impl Mirror {
-    /// For a character, by its index in the scene, to an address.
+    /// For a character, to an address.
     ///
     /// # Errors
     /// The socket cannot be opened.
-    pub fn open(character: usize, to: SocketAddr) -> std::io::Result<Mirror> {
+    pub fn open(character: CharacterId, to: SocketAddr) -> std::io::Result<Mirror> {
         let any = if to.is_ipv4() { "0.0.0.0:0" } else { "[::]:0" };
         let socket = UdpSocket::bind(any)?;
         // A slow viewer must not block the stage.
@@ -29,8 +30,7 @@ impl Mirror {
 
     /// Sends the present pose. A datagram that cannot be sent now is dropped: the next one is newer.
     pub fn send(&mut self, stage: &Stage) {
-        let (Some(seen), Some(body)) =
-            (stage.frame().characters.get(self.character), stage.world().body(self.character))
+        let (Some(seen), Some(body)) = (stage.frame().character(self.character), stage.world().body(self.character))
         else {
             return;
         };

@@ -7,13 +7,13 @@ use sinew_control::reflex::{Reflex, Sense};
 use sinew_control::source::{KeyPoses, Performer, PoseBook, SourceEvent, Sources};
 use sinew_control::tracker::{Gains, JointGain, PdTracker, TakeOver, Tracker, Wants};
 use sinew_control::{Layer, Root, Wanted};
-use sinew_world::{World, outboard_inertias};
+use sinew_world::{CharacterId, PropId, World, outboard_inertias};
 use std::any::Any;
 use std::sync::Arc;
 
 /// A character's control: what it follows, three layers (key poses and graphs, a script, reflexes), and how its body follows.
 pub struct Actor {
-    index: usize,
+    pub(crate) id: CharacterId,
     pub(crate) sources: Sources,
     tracker: Box<dyn Tracker>,
     wanted: Wanted,
@@ -28,14 +28,14 @@ pub struct Actor {
     /// How often it was told to reach.
     pub(crate) reaches: u64,
     /// Hands, left 0 and right 1, and the props that they pass through.
-    pub(crate) through: Vec<(usize, usize)>,
+    pub(crate) through: Vec<(usize, PropId)>,
     step_secs: f64,
 }
 
 impl Actor {
     /// Held by joint springs to the pose `pose` of the book, from the pose that the body has at the start.
     pub(crate) fn new(
-        index: usize,
+        id: CharacterId,
         body: &Body,
         book: Arc<PoseBook>,
         pose: &str,
@@ -45,7 +45,7 @@ impl Actor {
     ) -> Actor {
         let springs = Gains::of(body, &outboard_inertias(body), joints);
         Actor {
-            index,
+            id,
             sources: Sources::new(body, book, pose, start, step_secs),
             tracker: Box::new(PdTracker::with(springs.clone())),
             wanted: Wanted::STANDING,
@@ -160,22 +160,22 @@ impl Actor {
 
     /// Follows by another tracker from the next step on, from where the body is now.
     pub(crate) fn set_tracker(&mut self, tracker: Box<dyn Tracker>, floor_m: f64, world: &mut World) {
-        let Some(character) = world.frame().characters.get(self.index) else { return };
+        let Some(character) = world.frame().character(self.id) else { return };
         self.sources.begin_root(character, tracker.locks_feet().then_some(floor_m));
         if tracker.wants() == Wants::Joints {
             self.sources.take_over(character);
         }
-        std::mem::replace(&mut self.tracker, tracker).release(world, self.index);
+        std::mem::replace(&mut self.tracker, tracker).release(world, self.id);
         let is_motion = self.sources.own().motion().is_some();
         let motion = |secs: f64| self.sources.own_pose_at(secs);
         let start = TakeOver { motion: is_motion.then_some(&motion) };
-        self.tracker.take_over(&start, world, self.index);
+        self.tracker.take_over(&start, world, self.id);
     }
 
     /// All its sources go on by a step.
     pub(crate) fn advance(&mut self, world: &World, events: &mut Vec<SourceEvent>) {
         let has_poses_layer = self.has_layer(Layer::Poses);
-        self.sources.advance(world.frame(), self.index, has_poses_layer, events);
+        self.sources.advance(world.frame(), self.id, has_poses_layer, events);
     }
 
     /// Finds out what is wanted, as far as the tracker asks, and has it followed; `frame_secs` is the length of a motion frame \[s\].
@@ -202,7 +202,7 @@ impl Actor {
                 let gravity_m_s2 = world.settings().gravity_m_s2;
                 let sense = Sense {
                     frame,
-                    own: self.index,
+                    own: self.id,
                     body: self.sources.body(),
                     gains: &self.springs,
                     step_secs: self.step_secs,
@@ -221,10 +221,10 @@ impl Actor {
             }
         }
         if wants == Wants::Pose
-            && let Some(character) = frame.characters.get(self.index)
+            && let Some(character) = frame.character(self.id)
         {
             self.sources.place_root(character, &mut self.wanted);
         }
-        self.tracker.follow(&self.wanted, world, self.index);
+        self.tracker.follow(&self.wanted, world, self.id);
     }
 }

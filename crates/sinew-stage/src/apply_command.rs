@@ -11,7 +11,7 @@ use sinew_body::humanoid::Node;
 use sinew_control::source::NO_PERFORMER;
 use sinew_control::tracker::TrackerKind;
 use sinew_control::{Action, Command, OrderError, OrderErrorKind};
-use sinew_world::{Entity, PartShape};
+use sinew_world::{CharacterId, Entity, PartShape, PropId};
 
 impl Stage {
     /// Does what a command says and notes it. A command that makes no sense here (an unknown name, a number that is not
@@ -39,22 +39,22 @@ impl Stage {
         }
     }
 
-    fn apply_to_character(&mut self, character: usize, action: &Action) -> Result<Option<Effect>, String> {
-        let who = self.cast.characters()[character].clone();
+    fn apply_to_character(&mut self, character: CharacterId, action: &Action) -> Result<Option<Effect>, String> {
+        let who = self.cast.characters()[character.slot()].clone();
         let effect = match action {
             Action::Pose { name } => {
-                if !self.actors[character].sources.aim(name)? {
+                if !self.actors[character.slot()].sources.aim(name)? {
                     // It aims there already: a script says so at every step.
                     return Ok(None);
                 }
                 CharacterEffect::Pose { pose: name.clone() }
             }
             Action::Graph { name, state } => {
-                self.actors[character].sources.start_graph(name, state.as_deref())?;
+                self.actors[character.slot()].sources.start_graph(name, state.as_deref())?;
                 CharacterEffect::Graph { graph: name.clone() }
             }
             Action::Signal { name } => {
-                self.actors[character].sources.signal(name);
+                self.actors[character.slot()].sources.signal(name);
                 CharacterEffect::Signal { signal: name.clone() }
             }
             Action::Ik { link, target_m } => {
@@ -64,7 +64,7 @@ impl Stage {
                     None => self.holding_part(character).unwrap_or(Node::RightHand),
                 };
                 let effector = self.effector(character, limb);
-                let poses = self.actors[character].sources.key_poses_mut().ok_or(NO_KEY_POSES)?;
+                let poses = self.actors[character.slot()].sources.key_poses_mut().ok_or(NO_KEY_POSES)?;
                 if !poses.reach(limb, target, effector)? {
                     return Ok(None);
                 }
@@ -82,7 +82,7 @@ impl Stage {
             }
             Action::IkRelease { link } => {
                 let limb = link.as_deref().map(|link| self.part(character, link)).transpose()?;
-                if let Some(poses) = self.actors[character].sources.key_poses_mut() {
+                if let Some(poses) = self.actors[character.slot()].sources.key_poses_mut() {
                     poses.stop_reaching(limb);
                 }
                 CharacterEffect::ReachEnds
@@ -92,7 +92,7 @@ impl Stage {
                 let node = self.part(character, on)?;
                 let mut force = vector(*force_n, "force_n")?;
                 if *facing {
-                    let frame = &self.world.frame().characters[character];
+                    let frame = &self.world.frame().characters[character.slot()];
                     force = frame.left() * force.x + DVec3::Y * force.y + frame.facing * force.z;
                 }
                 if !self.start_push(Entity::Part(character, node), force, *at_m, *for_secs)? {
@@ -103,7 +103,7 @@ impl Stage {
             Action::Gain { factor, part } => {
                 let factor = number(*factor, "factor")?.max(0.0);
                 let part = part.as_deref().map(|part| self.part(character, part)).transpose()?;
-                self.actors[character].set_gain(part, factor);
+                self.actors[character.slot()].set_gain(part, factor);
                 CharacterEffect::Gain { node: part, factor }
             }
             Action::ForcesOff { parts, for_secs } => {
@@ -126,7 +126,7 @@ impl Stage {
             Action::Plane { facing_deg, for_secs } => {
                 let facing = match facing_deg {
                     Some(degrees) => heading(number(*degrees, "facing_deg")?),
-                    None => self.world.frame().characters[character].facing,
+                    None => self.world.frame().characters[character.slot()].facing,
                 };
                 let until = self.until(*for_secs)?;
                 self.world.hold_to_plane(character, facing);
@@ -184,11 +184,11 @@ impl Stage {
                 CharacterEffect::ShapeRemoved { node, shape: shape.clone() }
             }
             Action::Layer { layer, on } => {
-                self.actors[character].set_layer(*layer, *on);
+                self.actors[character.slot()].set_layer(*layer, *on);
                 CharacterEffect::Layer { layer: *layer, on: *on }
             }
             Action::Reflex { name, on } => {
-                self.actors[character].set_reflex(name, *on)?;
+                self.actors[character.slot()].set_reflex(name, *on)?;
                 CharacterEffect::Reflex { reflex: name.clone(), on: *on }
             }
             Action::Controller { name } => {
@@ -206,12 +206,12 @@ impl Stage {
             Action::Perform { sample } => {
                 // Many a second: what came of them is counted, not told.
                 let now_secs = self.world.frame().time_secs;
-                let performer = self.actors[character].sources.performer_mut().ok_or(NO_PERFORMER)?;
+                let performer = self.actors[character.slot()].sources.performer_mut().ok_or(NO_PERFORMER)?;
                 performer.source_mut().receive(sample, now_secs);
                 return Ok(None);
             }
             Action::Live { on } => {
-                self.actors[character].sources.follow_performer(*on)?;
+                self.actors[character.slot()].sources.follow_performer(*on)?;
                 CharacterEffect::Live { on: *on }
             }
             Action::Reload { name, text } => return self.reload(name, text.as_deref()).map(Some),
@@ -226,7 +226,7 @@ impl Stage {
 
     /// Undoes what has lasted for its time.
     pub(crate) fn end(&mut self, ending: &Expiry) {
-        let who = |index: usize| self.cast.characters().get(index).cloned().unwrap_or_default();
+        let who = |index: CharacterId| self.cast.characters().get(index.slot()).cloned().unwrap_or_default();
         let effect = match ending {
             Expiry::ForcesOff(character, node) => {
                 self.world.set_forces(*character, *node, true);
@@ -240,23 +240,24 @@ impl Stage {
                 Effect::of(who(*character), CharacterEffect::FreeFromPlane)
             }
             Expiry::Gravity(character) => {
-                let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
+                let scale = self.scene.characters.values().nth(character.slot()).map_or(1.0, |spec| spec.gravity_scale);
                 let gravity = CharacterEffect::Gravity { node: None, scale, over_secs: None };
                 let effect = Effect::of(who(*character), gravity);
                 self.weigh(&Node::ALL.map(|node| Weighs::Part(*character, node)), scale, None);
                 effect
             }
             Expiry::PartGravity(character, node) => {
-                let scale = self.scene.characters.values().nth(*character).map_or(1.0, |spec| spec.gravity_scale);
+                let scale = self.scene.characters.values().nth(character.slot()).map_or(1.0, |spec| spec.gravity_scale);
                 let gravity = CharacterEffect::Gravity { node: Some(*node), scale, over_secs: None };
                 let effect = Effect::of(who(*character), gravity);
                 self.weigh(&[Weighs::Part(*character, *node)], scale, None);
                 effect
             }
             Expiry::PropGravity(prop) => {
-                let scale = self.scene.props.values().nth(*prop).and_then(|spec| spec.gravity_scale).unwrap_or(1.0);
+                let scale =
+                    self.scene.props.values().nth(prop.slot()).and_then(|spec| spec.gravity_scale).unwrap_or(1.0);
                 self.weigh(&[Weighs::Prop(*prop)], scale, None);
-                Effect::PropGravity { prop: self.cast.props()[*prop].clone(), scale, over_secs: None }
+                Effect::PropGravity { prop: self.cast.props()[prop.slot()].clone(), scale, over_secs: None }
             }
             Expiry::Shape(character, node) => {
                 // The body's own shape is one.
@@ -274,13 +275,13 @@ impl Stage {
             }
             Expiry::Acceleration(prop) => {
                 self.world.accelerate_prop(*prop, DVec3::ZERO);
-                Effect::PropKeepsSpeed { prop: self.cast.props()[*prop].clone() }
+                Effect::PropKeepsSpeed { prop: self.cast.props()[prop.slot()].clone() }
             }
         };
         self.note(Cause::TimeOver, effect);
     }
 
-    fn note_shape(&mut self, character: usize, node: Node, shape: PartShape) {
+    fn note_shape(&mut self, character: CharacterId, node: Node, shape: PartShape) {
         if shape == PartShape::Own {
             self.shapes.remove(&(character, node));
         } else {
@@ -315,7 +316,7 @@ impl Stage {
         Ok(Some(self.world.frame().step.saturating_add(steps)))
     }
 
-    pub(crate) fn part(&self, character: usize, name: &str) -> Result<Node, String> {
+    pub(crate) fn part(&self, character: CharacterId, name: &str) -> Result<Node, String> {
         self.cast.part(character, name).ok_or_else(|| {
             let aliases: Vec<&str> = self.cast.aliases(character).map(|(alias, _)| alias.as_str()).collect();
             let known = Node::ALL.map(|node| node.part().name()).join(", ");
@@ -323,11 +324,11 @@ impl Stage {
         })
     }
 
-    pub(crate) fn parts(&self, character: usize, names: &[String]) -> Result<Vec<Node>, String> {
+    pub(crate) fn parts(&self, character: CharacterId, names: &[String]) -> Result<Vec<Node>, String> {
         names.iter().map(|name| self.part(character, name)).collect()
     }
 
-    pub(crate) fn prop(&self, name: &str) -> Result<usize, String> {
+    pub(crate) fn prop(&self, name: &str) -> Result<PropId, String> {
         self.cast.prop(name).ok_or_else(|| format!("no object `{name}`; there are {}", self.cast.props().join(", ")))
     }
 
@@ -340,17 +341,17 @@ impl Stage {
     }
 
     /// The point that is to arrive when a part reaches, in the part's frame \[m\]: the centre of what it holds, else its own.
-    fn effector(&self, character: usize, node: Node) -> DVec3 {
+    fn effector(&self, character: CharacterId, node: Node) -> DVec3 {
         let own = self.world.body(character).map_or(DVec3::ZERO, |body| body.link(node).centre);
         let held = self.world.held().find(|held| held.character == character && held.node == node);
         let Some(Entity::Prop(prop)) = held.map(|held| held.object) else { return own };
         let frame = self.world.frame();
-        let part = frame.characters[character].part(node);
-        part.rotation.conjugate() * (frame.props[prop].centre - part.position)
+        let part = frame.characters[character.slot()].part(node);
+        part.rotation.conjugate() * (frame.props[prop.slot()].centre - part.position)
     }
 
     /// The part that holds something.
-    fn holding_part(&self, character: usize) -> Option<Node> {
+    fn holding_part(&self, character: CharacterId) -> Option<Node> {
         self.world.held().find(|held| held.character == character).map(|held| held.node)
     }
 }

@@ -6,15 +6,15 @@ use crate::event::{Cause, CharacterEffect, Effect};
 use sinew_body::humanoid::Node;
 use sinew_control::Action;
 use sinew_control::graph::Touchable;
-use sinew_world::{Entity, Held};
+use sinew_world::{CharacterId, Entity, Held};
 
 /// A hand takes hold of what its centre of mass is no farther from than this \[m\]: it lies in the open hand.
 const REACH_M: f64 = 0.15;
 
 impl Stage {
     /// What was done; `None` when it was so already.
-    pub(crate) fn apply_grasp(&mut self, character: usize, action: &Action) -> Result<Option<Effect>, String> {
-        let who = self.cast.characters()[character].clone();
+    pub(crate) fn apply_grasp(&mut self, character: CharacterId, action: &Action) -> Result<Option<Effect>, String> {
+        let who = self.cast.characters()[character.slot()].clone();
         match action {
             Action::Attach { link, object, soft, break_n } => {
                 let node = self.part(character, link)?;
@@ -52,7 +52,7 @@ impl Stage {
     pub(crate) fn note_broken_holds(&mut self) {
         for at in 0..self.world.broken_holds().len() {
             let (held, force_n) = self.world.broken_holds()[at];
-            let who = self.cast.characters().get(held.character).cloned().unwrap_or_default();
+            let who = self.cast.characters().get(held.character.slot()).cloned().unwrap_or_default();
             let loses = CharacterEffect::LosesHold { node: held.node, object: self.cast.name_of(held.object) };
             let max_n = held.break_force_n.unwrap_or(0.0);
             self.note(Cause::HoldOverload { force_n, max_n }, Effect::of(who, loses));
@@ -60,7 +60,7 @@ impl Stage {
     }
 
     /// One thing that can be held; the nearest in reach when it has no name.
-    fn thing(&self, name: &str, own: usize, node: Node) -> Result<Entity, String> {
+    fn thing(&self, name: &str, own: CharacterId, node: Node) -> Result<Entity, String> {
         if name.is_empty() {
             return self
                 .world

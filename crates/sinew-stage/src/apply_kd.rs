@@ -7,12 +7,13 @@ use crate::timed_effect::Expiry;
 use sinew_body::humanoid::Node;
 use sinew_control::Action;
 use sinew_control::tracker::{KdGains, KdTracker};
+use sinew_world::CharacterId;
 
 /// Gains and switches fade over this time when a command does not say \[s\].
 const FADE_SECS: f64 = 0.5;
 
 impl Stage {
-    pub(crate) fn apply_kd(&mut self, character: usize, action: &Action) -> Result<CharacterEffect, String> {
+    pub(crate) fn apply_kd(&mut self, character: CharacterId, action: &Action) -> Result<CharacterEffect, String> {
         let fade = |secs: &Option<f64>| number(secs.unwrap_or(FADE_SECS), "fade_secs").map(|secs| secs.max(0.0));
         match action {
             Action::Weights { parts, pin, joint, fade_secs, for_secs } => {
@@ -68,14 +69,14 @@ impl Stage {
         let (Expiry::Weights(character, _) | Expiry::Kd(character) | Expiry::Pins(character)) = *ending else {
             return None;
         };
-        let who = self.cast.characters().get(character)?.clone();
+        let who = self.cast.characters().get(character.slot())?.clone();
         if *ending == Expiry::Pins(character) {
             let on = !self.kd(character).ok()?.has_pins();
             self.switch_pins(character, on, FADE_SECS).ok()?;
             return Some(Effect::of(who, CharacterEffect::Pins { on }));
         }
         let scene = std::sync::Arc::clone(&self.scene);
-        let spec = scene.characters.values().nth(character)?;
+        let spec = scene.characters.values().nth(character.slot())?;
         let settings = spec.kd.settings(|part| spec.node(part));
         let kd = self.kd(character).ok()?;
         match ending {
@@ -93,19 +94,19 @@ impl Stage {
         }
     }
 
-    fn switch_pins(&mut self, character: usize, on: bool, fade_secs: f64) -> Result<(), String> {
+    fn switch_pins(&mut self, character: CharacterId, on: bool, fade_secs: f64) -> Result<(), String> {
         let kd = self.kd(character)?;
         let comes_on = on && !kd.has_pins();
         kd.set_pins(on, fade_secs);
         // A source that knows no place has the hips stand where they are now.
-        if let Some(frame) = self.world.frame().characters.get(character).filter(|_| comes_on) {
-            self.actors[character].sources.stand_where_it_is(frame);
+        if let Some(frame) = self.world.frame().character(character).filter(|_| comes_on) {
+            self.actors[character.slot()].sources.stand_where_it_is(frame);
         }
         Ok(())
     }
 
-    fn kd(&mut self, character: usize) -> Result<&mut KdTracker, String> {
-        self.actors[character]
+    fn kd(&mut self, character: CharacterId) -> Result<&mut KdTracker, String> {
+        self.actors[character.slot()]
             .tracker_as::<KdTracker>()
             .ok_or_else(|| "it does not follow by kd; give it tracker = \"kd\"".to_owned())
     }

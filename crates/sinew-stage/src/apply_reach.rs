@@ -7,7 +7,7 @@ use sinew_control::ReachOrder;
 use sinew_control::source::{ReachArrival, ReachSource};
 use sinew_control::tracker::TrackerKind;
 use sinew_reach::{Goal, Reacher, Start, Style};
-use sinew_world::{BodyState, CharacterFrame, Entity};
+use sinew_world::{BodyState, CharacterFrame, CharacterId, Entity};
 
 /// A reach under way, to look at.
 #[derive(Clone, Copy, Debug)]
@@ -26,24 +26,28 @@ pub struct ReachNow<'a> {
 
 impl Stage {
     /// Begins to reach, from whatever pose the character is in. None when it does so already.
-    pub(crate) fn begin_reach(&mut self, index: usize, order: &ReachOrder) -> Result<Option<CharacterEffect>, String> {
+    pub(crate) fn begin_reach(
+        &mut self,
+        index: CharacterId,
+        order: &ReachOrder,
+    ) -> Result<Option<CharacterEffect>, String> {
         order.check()?;
         let style = Style {
             flexibility: order.flexibility,
             speed_m_s: order.speed_m_s.filter(|_| order.time_secs.is_none()),
             time_secs: order.time_secs,
-            seed: self.scene.stage.seed.wrapping_add(index as u64),
+            seed: self.scene.stage.seed.wrapping_add(index.slot() as u64),
             ..Style::default()
         };
-        if self.actors[index].sources.reach().is_some_and(|reach| reach.is_about(order)) {
+        if self.actors[index.slot()].sources.reach().is_some_and(|reach| reach.is_about(order)) {
             return Ok(None);
         }
         let aimed = self.aim_of(index, order)?;
         let obstacles = self.obstacles(&order.avoid)?;
         let frame = self.world.frame();
         let now_secs = frame.time_secs;
-        let start = self.start_of(index, &frame.characters[index], now_secs);
-        let actor = &mut self.actors[index];
+        let start = self.start_of(index, &frame.characters[index.slot()], now_secs);
+        let actor = &mut self.actors[index.slot()];
         let mut reach = match actor.sources.take_reach() {
             // On from the reach before: nothing jumps.
             Some(mut before) => before.restyle(&style, now_secs).map(|()| before),
@@ -69,15 +73,15 @@ impl Stage {
     }
 
     /// Stands up from a reach and goes back to what was before. False when there is none.
-    pub(crate) fn end_reach(&mut self, index: usize) -> bool {
+    pub(crate) fn end_reach(&mut self, index: CharacterId) -> bool {
         let now_secs = self.world.frame().time_secs;
-        self.actors[index].sources.reach_mut().is_some_and(|reach| reach.leave_at(now_secs))
+        self.actors[index.slot()].sources.reach_mut().is_some_and(|reach| reach.leave_at(now_secs))
     }
 
     /// The reach that a character is about, if it reaches now.
-    pub fn reach_of(&self, character: usize) -> Option<ReachNow<'_>> {
+    pub fn reach_of(&self, character: CharacterId) -> Option<ReachNow<'_>> {
         let frame = self.world.frame();
-        let reach = self.actors.get(character)?.sources.reach().filter(|reach| reach.is_reaching())?;
+        let reach = self.actors.get(character.slot())?.sources.reach().filter(|reach| reach.is_reaching())?;
         Some(ReachNow {
             number: reach.number(),
             reacher: reach.reacher(),
@@ -88,9 +92,9 @@ impl Stage {
     }
 
     /// The wanted pose and how it moves; of a body that springs or nothing drives, its own.
-    fn start_of(&self, index: usize, character: &CharacterFrame, now_secs: f64) -> Start {
+    fn start_of(&self, index: CharacterId, character: &CharacterFrame, now_secs: f64) -> Start {
         let ago = 1.0 / f64::from(self.scene.stage.motion_hz);
-        let actor = &self.actors[index];
+        let actor = &self.actors[index.slot()];
         if matches!(actor.tracker().kind(), TrackerKind::Kinematic | TrackerKind::Response)
             && actor.sources.own().motion().is_some()
         {
@@ -104,8 +108,8 @@ impl Stage {
     }
 
     /// The hands of a reach should be there.
-    pub(crate) fn reach_arrives(&mut self, index: usize, arrival: &ReachArrival) {
-        let who = self.cast.characters()[index].clone();
+    pub(crate) fn reach_arrives(&mut self, index: CharacterId, arrival: &ReachArrival) {
+        let who = self.cast.characters()[index.slot()].clone();
         let mut notes = Vec::new();
         for hand in &arrival.hands {
             notes.push(CharacterEffect::HandArrives { node: hand.node, gap_m: hand.gap_m });
@@ -113,7 +117,7 @@ impl Stage {
         for held in arrival.hands.iter().filter_map(|hand| hand.holds) {
             self.world.attach(held);
             if let Entity::Prop(prop) = held.object {
-                notes.push(CharacterEffect::Holds { node: held.node, object: self.cast.props()[prop].clone() });
+                notes.push(CharacterEffect::Holds { node: held.node, object: self.cast.props()[prop.slot()].clone() });
             }
         }
         for note in notes {

@@ -7,7 +7,7 @@ use crate::fade::Weighs;
 use crate::scene::aim;
 use crate::timed_effect::Expiry;
 use sinew_control::Action;
-use sinew_world::{Entity, Motor};
+use sinew_world::{Entity, Motor, PropJointId};
 
 impl Stage {
     pub(crate) fn apply_to_stage(&mut self, action: &Action) -> Result<Option<Effect>, String> {
@@ -90,7 +90,7 @@ impl Stage {
         Ok(Some(effect))
     }
 
-    fn joint(&self, name: &str) -> Result<usize, String> {
+    fn joint(&self, name: &str) -> Result<PropJointId, String> {
         self.cast.joint(name).ok_or_else(|| format!("no joint `{name}`; there are {}", self.cast.joints().join(", ")))
     }
 }

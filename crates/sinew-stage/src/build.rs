@@ -45,7 +45,7 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         world.add_prop(spec).map_err(|error| wrong(place(), error.to_string()))?;
     }
     let mut actors = Vec::new();
-    for (index, (name, spec)) in scene.characters.iter().enumerate() {
+    for (name, spec) in &scene.characters {
         let place = || format!("characters.{name}");
         let cut = cut(scene, spec).map_err(|problem| wrong(place(), problem))?;
         let specs: &BTreeMap<String, PoseSpec> = &scene.poses;
@@ -70,13 +70,13 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
             velocity: spec.velocity_m_s.into(),
             surface,
         };
-        world.add_character(in_world).map_err(|error| wrong(place(), error.to_string()))?;
+        let id = world.add_character(in_world).map_err(|error| wrong(place(), error.to_string()))?;
         if spec.spin_rad_s != [0.0; 3] {
-            world.spin_character(index, spec.spin_rad_s.into());
+            world.spin_character(id, spec.spin_rad_s.into());
         }
         let step_secs = world.settings().step_secs();
         let book = Arc::new(PoseBook { poses, graphs });
-        let mut actor = Actor::new(index, &cut.body, book, pose, &start, &joints, step_secs);
+        let mut actor = Actor::new(id, &cut.body, book, pose, &start, &joints, step_secs);
         if let Some(motion) = cut.motion {
             actor.sources.follow(Box::new(motion));
         }
@@ -158,19 +158,20 @@ fn fasten(scene: &Scene, cast: &Cast, world: &mut World) -> Result<(), StageErro
 /// What begins with the first step: gravity, planes, layers, reflexes, graphs, controllers.
 pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
     let scene = std::sync::Arc::clone(&stage.scene);
-    for (index, (name, spec)) in scene.characters.iter().enumerate() {
+    for (at, (name, spec)) in scene.characters.iter().enumerate() {
+        let id = stage.actors[at].id;
         let wrong = |problem: String| StageError {
             file: scene.file_name().to_owned(),
             place: format!("characters.{name}"),
             problem,
         };
         if spec.gravity_scale != 1.0 {
-            stage.world.set_gravity(index, spec.gravity_scale);
+            stage.world.set_gravity(id, spec.gravity_scale);
         }
         if let Some(degrees) = spec.plane_facing_deg() {
-            stage.world.hold_to_plane(index, heading(degrees));
+            stage.world.hold_to_plane(id, heading(degrees));
         }
-        let actor = &mut stage.actors[index];
+        let actor = &mut stage.actors[at];
         actor.set_gain(None, spec.pose_gain);
         for reflex in &spec.reflexes {
             actor.set_reflex(reflex, true).map_err(wrong)?;
@@ -186,19 +187,19 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
             _ => {}
         }
         if spec.tracker != TrackerKind::Pd {
-            stage.set_tracker(index, spec.tracker).map_err(wrong)?;
+            stage.set_tracker(id, spec.tracker).map_err(wrong)?;
         }
         if let Some(order) = spec.source.as_ref().and_then(|source| source.reach.as_ref())
-            && let Some(effect) = stage.begin_reach(index, order).map_err(wrong)?
+            && let Some(effect) = stage.begin_reach(id, order).map_err(wrong)?
         {
             stage.note(Cause::SceneStart, Effect::of(name, effect));
         }
         if let Some(controller) = &spec.controller {
-            stage.start_controller(index, controller).map_err(wrong)?;
+            stage.start_controller(id, controller).map_err(wrong)?;
         }
     }
-    for (prop, (name, spec)) in scene.props.iter().enumerate() {
-        let Some(controller) = &spec.controller else { continue };
+    for (name, spec) in &scene.props {
+        let (Some(controller), Some(prop)) = (&spec.controller, stage.cast.prop(name)) else { continue };
         stage.start_prop_controller(prop, controller).map_err(|problem| StageError {
             file: scene.file_name().to_owned(),
             place: format!("props.{name}"),

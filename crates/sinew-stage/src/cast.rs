@@ -3,10 +3,10 @@
 use crate::scene::Scene;
 use sinew_body::humanoid::Node;
 use sinew_control::graph::{Names, Touchable};
-use sinew_world::Entity;
+use sinew_world::{CharacterId, Entity, PropId, PropJointId};
 use std::collections::BTreeMap;
 
-/// Names of characters and props, and what they are in the world: a place in the frame's lists, in alphabetical order.
+/// Names of characters and props, and what they are in the world: a slot of the world, in alphabetical order.
 #[derive(Clone, Debug, Default)]
 pub struct Cast {
     characters: Vec<String>,
@@ -49,35 +49,35 @@ impl Cast {
     }
 
     /// Aliases of a character's parts.
-    pub fn aliases(&self, character: usize) -> impl Iterator<Item = (&String, Node)> {
-        self.aliases.get(character).into_iter().flatten().map(|(alias, node)| (alias, *node))
+    pub fn aliases(&self, character: CharacterId) -> impl Iterator<Item = (&String, Node)> {
+        self.aliases.get(character.slot()).into_iter().flatten().map(|(alias, node)| (alias, *node))
     }
 
     /// The character of this name.
-    pub fn character(&self, name: &str) -> Option<usize> {
-        self.characters.iter().position(|known| known == name)
+    pub fn character(&self, name: &str) -> Option<CharacterId> {
+        self.characters.iter().position(|known| known == name).map(CharacterId::first_in)
     }
 
     /// The prop of this name.
-    pub fn prop(&self, name: &str) -> Option<usize> {
-        self.props.iter().position(|known| known == name)
+    pub fn prop(&self, name: &str) -> Option<PropId> {
+        self.props.iter().position(|known| known == name).map(PropId::first_in)
     }
 
     /// The joint of this name.
-    pub fn joint(&self, name: &str) -> Option<usize> {
-        self.joints.iter().position(|known| known == name)
+    pub fn joint(&self, name: &str) -> Option<PropJointId> {
+        self.joints.iter().position(|known| known == name).map(PropJointId::first_in)
     }
 
     /// A part of a character, by its VRM name or an alias.
-    pub fn part(&self, character: usize, name: &str) -> Option<Node> {
-        if let Some(node) = self.aliases.get(character)?.get(name) {
+    pub fn part(&self, character: CharacterId, name: &str) -> Option<Node> {
+        if let Some(node) = self.aliases.get(character.slot())?.get(name) {
             return Some(*node);
         }
         name.parse().ok().map(Node::of)
     }
 
     /// `ground`, a prop, a character, `character.part`, or a part of `own`.
-    pub fn meaning(&self, name: &str, own: Option<usize>) -> Option<Touchable> {
+    pub fn meaning(&self, name: &str, own: Option<CharacterId>) -> Option<Touchable> {
         if name == GROUND {
             return Some(Touchable::One(Entity::Floor));
         }
@@ -102,9 +102,9 @@ impl Cast {
     pub fn name_of(&self, entity: Entity) -> String {
         match entity {
             Entity::Floor => GROUND.to_owned(),
-            Entity::Prop(prop) => self.props.get(prop).cloned().unwrap_or_default(),
+            Entity::Prop(prop) => self.props.get(prop.slot()).cloned().unwrap_or_default(),
             Entity::Part(character, node) => {
-                let owner = self.characters.get(character).map_or("", String::as_str);
+                let owner = self.characters.get(character.slot()).map_or("", String::as_str);
                 format!("{owner}.{}", node.part().name())
             }
         }

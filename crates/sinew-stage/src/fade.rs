@@ -3,14 +3,15 @@
 use crate::Stage;
 use crate::step::step_of;
 use sinew_body::humanoid::Node;
+use sinew_world::{CharacterId, PropId};
 
 /// Something that gravity acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Weighs {
     /// A part of a character.
-    Part(usize, Node),
+    Part(CharacterId, Node),
     /// A prop.
-    Prop(usize),
+    Prop(PropId),
 }
 
 /// A factor on gravity on its way.

@@ -6,15 +6,15 @@ use sinew_body::humanoid::Node;
 use sinew_control::source::{Aimed, HANDS};
 use sinew_control::{ReachHand, ReachOrder};
 use sinew_reach::Obstacle;
-use sinew_world::{BodyState, Entity, Form, Solid};
+use sinew_world::{BodyState, CharacterId, Entity, Form, Solid};
 
 /// A hand's own thickness, between its centre and what it touches \[m\].
 const PALM_M: f64 = 0.035;
 
 impl Stage {
     /// Where each hand is to come.
-    pub(crate) fn aim_of(&self, index: usize, order: &ReachOrder) -> Result<[Option<Aimed>; 2], String> {
-        let character = self.world.frame().characters.get(index).ok_or("the character is not in the world")?;
+    pub(crate) fn aim_of(&self, index: CharacterId, order: &ReachOrder) -> Result<[Option<Aimed>; 2], String> {
+        let character = self.world.frame().character(index).ok_or("the character is not in the world")?;
         if order.left_m.is_some() || order.right_m.is_some() {
             let point = |place: Option<[f64; 3]>| place.map(|place| Aimed::Point(place.into()));
             return Ok([point(order.left_m), point(order.right_m)]);
@@ -39,8 +39,8 @@ impl Stage {
         }
         let name = order.object.as_deref().unwrap_or_default();
         let prop = self.cast.prop(name).ok_or_else(|| format!("no object `{name}`"))?;
-        let state = self.world.frame().props.get(prop).ok_or("it is not in the world")?;
-        let solid = self.scene.props.values().nth(prop).and_then(crate::scene::PropSpec::solid);
+        let state = self.world.frame().prop(prop).ok_or("it is not in the world")?;
+        let solid = self.scene.props.values().nth(prop.slot()).and_then(crate::scene::PropSpec::solid);
         let surface = |direction: DVec3| {
             let depth = solid.as_ref().map_or(0.0, |solid| depth(solid, state, direction));
             direction * (depth + PALM_M)
@@ -64,8 +64,8 @@ impl Stage {
         for name in names {
             let prop = self.cast.prop(name).ok_or_else(|| format!("no object `{name}`"))?;
             let (Some(state), Some(solid)) = (
-                self.world.frame().props.get(prop),
-                self.scene.props.values().nth(prop).and_then(crate::scene::PropSpec::solid),
+                self.world.frame().prop(prop),
+                self.scene.props.values().nth(prop.slot()).and_then(crate::scene::PropSpec::solid),
             ) else {
                 continue;
             };

@@ -4,18 +4,18 @@ use crate::Stage;
 use crate::reach_aim::depth;
 use crate::scene::PropSpec;
 use sinew_control::source::{Aimed, HANDS};
-use sinew_world::Entity;
+use sinew_world::{CharacterId, Entity, PropId};
 
 /// How far a hand's centre is from a prop's surface when it is clear of it \[m\]: more than half a hand.
 const CLEAR_M: f64 = 0.13;
 
 impl Stage {
     /// The hands that are aimed at props pass through them from now on.
-    pub(crate) fn pass_through(&mut self, index: usize, aimed: &[Option<Aimed>; 2]) {
+    pub(crate) fn pass_through(&mut self, index: CharacterId, aimed: &[Option<Aimed>; 2]) {
         for (side, aimed) in aimed.iter().enumerate() {
             let Some(Aimed::Prop(prop, _)) = *aimed else { continue };
             self.world.set_passes_prop(index, HANDS[side], prop, true);
-            let through = &mut self.actors[index].through;
+            let through = &mut self.actors[index.slot()].through;
             if !through.contains(&(side, prop)) {
                 through.push((side, prop));
             }
@@ -23,27 +23,27 @@ impl Stage {
     }
 
     /// Hands that reach for something else by now, or for nothing, push again what they are clear of.
-    pub(crate) fn end_passing(&mut self, index: usize) {
-        if self.actors[index].through.is_empty() {
+    pub(crate) fn end_passing(&mut self, index: CharacterId) {
+        if self.actors[index.slot()].through.is_empty() {
             return;
         }
-        let mut through = std::mem::take(&mut self.actors[index].through);
+        let mut through = std::mem::take(&mut self.actors[index.slot()].through);
         through.retain(|&(side, prop)| {
-            let is_aimed = self.actors[index].sources.reach().is_some_and(|reach| reach.is_aimed(side, prop));
+            let is_aimed = self.actors[index.slot()].sources.reach().is_some_and(|reach| reach.is_aimed(side, prop));
             let stays = is_aimed || !self.is_clear(index, side, prop);
             if !stays {
                 self.world.set_passes_prop(index, HANDS[side], prop, false);
             }
             stays
         });
-        self.actors[index].through = through;
+        self.actors[index.slot()].through = through;
     }
 
-    fn is_clear(&self, index: usize, side: usize, prop: usize) -> bool {
+    fn is_clear(&self, index: CharacterId, side: usize, prop: PropId) -> bool {
         let frame = self.world.frame();
-        let (Some(character), Some(state)) = (frame.characters.get(index), frame.props.get(prop)) else { return true };
+        let (Some(character), Some(state)) = (frame.character(index), frame.prop(prop)) else { return true };
         let away = character.part(HANDS[side]).centre - state.centre;
-        let solid = self.scene.props.values().nth(prop).and_then(PropSpec::solid);
+        let solid = self.scene.props.values().nth(prop.slot()).and_then(PropSpec::solid);
         let depth = solid.map_or(0.0, |solid| depth(&solid, state, away.normalize_or_zero()));
         !self.world.is_attached(index, HANDS[side], Entity::Prop(prop)) && away.length() > depth + CLEAR_M
     }

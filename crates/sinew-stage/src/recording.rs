@@ -3,7 +3,7 @@
 use crate::{Scene, Stage, StageError};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
-use sinew_world::{Frame, PartShape, Solid};
+use sinew_world::{CharacterId, Frame, PartShape, Solid};
 
 /// A run at the motion rate.
 #[derive(Clone, Debug, Default)]
@@ -52,7 +52,7 @@ impl Recording {
     /// An empty recording of a stage.
     pub fn new(stage: &Stage) -> Recording {
         let world = stage.world();
-        let bodies = (0..stage.scene().characters.len()).filter_map(|index| world.body(index).cloned());
+        let bodies = world.frame().character_ids.iter().flatten().filter_map(|&id| world.body(id).cloned());
         Recording::of_bodies(stage.scene(), bodies)
     }
 
@@ -92,9 +92,10 @@ impl Recording {
 
     /// Takes down what the stage shows now.
     pub fn push(&mut self, stage: &Stage) {
-        for (index, character) in self.characters.iter_mut().enumerate() {
+        for (slot, character) in self.characters.iter_mut().enumerate() {
+            let id = CharacterId::first_in(slot);
             for node in Node::ALL {
-                let shape = stage.shape_in_place_of_own(index, node).unwrap_or(&PartShape::Own);
+                let shape = stage.shape_in_place_of_own(id, node).unwrap_or(&PartShape::Own);
                 if character.shape(node, self.frames) != shape {
                     character.shapes.push((self.frames, node, shape.clone()));
                 }

@@ -6,7 +6,7 @@ use sinew_body::humanoid::Node;
 use sinew_script::{
     CharacterNames, CharacterState, Contact, JointName, JointState, Names, ObjectState, PartState, Snapshot, Thing,
 };
-use sinew_world::{Entity, World};
+use sinew_world::{CharacterId, Entity, PropJointId, World};
 
 /// Names that scripts can use.
 pub(crate) fn names(scene: &Scene, cast: &Cast) -> Names {
@@ -15,7 +15,10 @@ pub(crate) fn names(scene: &Scene, cast: &Cast) -> Names {
     };
     let characters = cast.characters().iter().enumerate().map(|(index, name)| CharacterNames {
         name: name.clone(),
-        aliases: cast.aliases(index).map(|(alias, node)| (alias.clone(), node.part().name().to_owned())).collect(),
+        aliases: cast
+            .aliases(CharacterId::first_in(index))
+            .map(|(alias, node)| (alias.clone(), node.part().name().to_owned()))
+            .collect(),
     });
     let joints = scene
         .joints
@@ -38,8 +41,8 @@ pub(crate) fn names(scene: &Scene, cast: &Cast) -> Names {
 fn thing(entity: Entity) -> Thing {
     match entity {
         Entity::Floor => Thing::Ground,
-        Entity::Prop(prop) => Thing::Object(prop),
-        Entity::Part(character, node) => Thing::Part(character, node.index()),
+        Entity::Prop(prop) => Thing::Object(prop.slot()),
+        Entity::Part(character, node) => Thing::Part(character.slot(), node.index()),
     }
 }
 
@@ -62,7 +65,7 @@ pub(crate) fn snapshot(world: &World, hinges: &[bool]) -> Snapshot {
         support: character.support.iter().map(|corner| corner.to_array()).collect(),
         attached: world
             .held()
-            .filter(|held| held.character == index)
+            .filter(|held| held.character.slot() == index)
             .map(|held| (held.node.index(), thing(held.object)))
             .collect(),
     });
@@ -73,7 +76,7 @@ pub(crate) fn snapshot(world: &World, hinges: &[bool]) -> Snapshot {
         spin: prop.angular_velocity.into(),
     });
     let joints = hinges.iter().enumerate().map(|(joint, &turns)| {
-        let state = world.prop_joint(joint);
+        let state = world.prop_joint(PropJointId::first_in(joint));
         let place = if turns { state.place.to_degrees() } else { state.place };
         JointState { place, speed: state.speed, is_whole: state.is_whole }
     });

@@ -6,12 +6,13 @@ use crate::scene::JointKind;
 use crate::script_snapshot::{names, snapshot};
 use sinew_control::{Action, Command};
 use sinew_script::{Script, StartInfo};
+use sinew_world::{CharacterId, PropId};
 
-/// What a controller runs, by its place in the frame.
+/// What a controller runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Owner {
-    Character(usize),
-    Prop(usize),
+    Character(CharacterId),
+    Prop(PropId),
 }
 
 /// A controller that runs a character or a prop.
@@ -23,19 +24,19 @@ pub(crate) struct Running {
 
 impl Stage {
     /// Starts a controller of the scene for a character, in place of the one it has; with an empty name stops that one.
-    pub(crate) fn start_controller(&mut self, character: usize, name: &str) -> Result<(), String> {
+    pub(crate) fn start_controller(&mut self, character: CharacterId, name: &str) -> Result<(), String> {
         if name.is_empty() {
-            self.actors[character].script = None;
+            self.actors[character.slot()].script = None;
             return Ok(());
         }
-        let own = self.cast.characters()[character].clone();
-        self.actors[character].script = Some(self.start_script(name, own)?);
+        let own = self.cast.characters()[character.slot()].clone();
+        self.actors[character.slot()].script = Some(self.start_script(name, own)?);
         Ok(())
     }
 
     /// Starts a controller of the scene for a prop.
-    pub(crate) fn start_prop_controller(&mut self, prop: usize, name: &str) -> Result<(), String> {
-        let own = self.cast.props()[prop].clone();
+    pub(crate) fn start_prop_controller(&mut self, prop: PropId, name: &str) -> Result<(), String> {
+        let own = self.cast.props()[prop.slot()].clone();
         let running = self.start_script(name, own)?;
         self.prop_scripts.insert(prop, running);
         Ok(())
@@ -61,13 +62,13 @@ impl Stage {
 
     /// Everything that a controller runs: characters, then props.
     fn owners(&self) -> Vec<Owner> {
-        let characters = (0..self.actors.len()).map(Owner::Character);
+        let characters = self.actors.iter().map(|actor| Owner::Character(actor.id));
         characters.chain(self.prop_scripts.keys().map(|&prop| Owner::Prop(prop))).collect()
     }
 
     fn running(&mut self, owner: Owner) -> Option<&mut Running> {
         match owner {
-            Owner::Character(character) => self.actors.get_mut(character)?.script.as_mut(),
+            Owner::Character(character) => self.actors.get_mut(character.slot())?.script.as_mut(),
             Owner::Prop(prop) => self.prop_scripts.get_mut(&prop),
         }
     }
@@ -75,7 +76,7 @@ impl Stage {
     /// Whether a controller is to be called.
     fn is_called(&mut self, owner: Owner) -> bool {
         let is_heard = match owner {
-            Owner::Character(character) => self.actors[character].hears_scripts(),
+            Owner::Character(character) => self.actors[character.slot()].hears_scripts(),
             Owner::Prop(_) => true,
         };
         is_heard && self.running(owner).is_some_and(|running| running.script.is_running())

@@ -17,7 +17,7 @@ use crate::timed_effect::TimedEffects;
 use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 use sinew_script::ScriptHost;
-use sinew_world::{Frame, PartShape, World};
+use sinew_world::{CharacterId, Frame, PartShape, PropId, PropJointId, World};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub struct Stage {
     pub(crate) actors: Vec<Actor>,
     pub(crate) timed_effects: TimedEffects,
     /// Shapes that parts have in place of their own.
-    pub(crate) shapes: BTreeMap<(usize, Node), PartShape>,
+    pub(crate) shapes: BTreeMap<(CharacterId, Node), PartShape>,
     pub(crate) events: Events,
     pub(crate) host: Option<ScriptHost>,
     /// Commands that came from outside, with the steps in which they were applied.
@@ -39,9 +39,9 @@ pub struct Stage {
     pub(crate) prescribed: Option<Vec<Stamped>>,
     reactions: Reactions,
     /// Joints of the scene that are cut or broken, as far as that is noted.
-    pub(crate) broken: BTreeSet<usize>,
+    pub(crate) broken: BTreeSet<PropJointId>,
     /// Controllers of props.
-    pub(crate) prop_scripts: BTreeMap<usize, Running>,
+    pub(crate) prop_scripts: BTreeMap<PropId, Running>,
     /// Commands for the next step.
     inbox: Vec<Command>,
     /// The scene's own commands that are still to come, the next one last.
@@ -210,7 +210,7 @@ impl Stage {
     }
 
     /// The shape that a command has given to a part of a character in place of its own.
-    pub fn shape_in_place_of_own(&self, character: usize, node: Node) -> Option<&PartShape> {
+    pub fn shape_in_place_of_own(&self, character: CharacterId, node: Node) -> Option<&PartShape> {
         self.shapes.get(&(character, node))
     }
 
@@ -240,8 +240,8 @@ impl Stage {
     }
 
     /// Which tracker, pose, graph state and layers a character has now.
-    pub fn state_of(&self, character: usize) -> Option<&Actor> {
-        self.actors.get(character)
+    pub fn state_of(&self, character: CharacterId) -> Option<&Actor> {
+        self.actors.get(character.slot())
     }
 
     pub(crate) fn note(&mut self, cause: Cause, effect: Effect) {
@@ -255,11 +255,11 @@ impl Stage {
         for push in &self.timed_effects.pushes {
             match push.on {
                 sinew_world::Entity::Part(character, node) => {
-                    let at = push.at.map(|at| world.frame().characters[character].part(node).point(at));
+                    let at = push.at.map(|at| world.frame().characters[character.slot()].part(node).point(at));
                     world.push_part(character, node, push.force, at);
                 }
                 sinew_world::Entity::Prop(prop) => {
-                    let at = push.at.map(|at| world.frame().props[prop].point(at));
+                    let at = push.at.map(|at| world.frame().props[prop.slot()].point(at));
                     world.push_prop(prop, push.force, at);
                 }
                 sinew_world::Entity::Floor => {}
@@ -268,10 +268,11 @@ impl Stage {
     }
 
     fn note_resets(&mut self) {
-        for index in 0..self.actors.len() {
-            if self.world.frame().characters[index].was_reset {
-                self.actors[index].reset();
-                let name = self.cast.characters()[index].clone();
+        for at in 0..self.actors.len() {
+            let index = self.actors[at].id;
+            if self.world.frame().characters[index.slot()].was_reset {
+                self.actors[index.slot()].reset();
+                let name = self.cast.characters()[index.slot()].clone();
                 self.note(Cause::BodyDiverged, Effect::of(name, CharacterEffect::PutBack));
             }
         }
@@ -282,9 +283,10 @@ impl Stage {
     /// Joints that broke in the last step; those that were cut are noted by the command.
     fn note_breaks(&mut self) {
         self.note_broken_holds();
-        for joint in 0..self.cast.joints().len() {
+        for at in 0..self.cast.joints().len() {
+            let joint = PropJointId::first_in(at);
             if !self.world.prop_joint(joint).is_whole && self.broken.insert(joint) {
-                let name = self.cast.joints()[joint].clone();
+                let name = self.cast.joints()[at].clone();
                 self.note(Cause::JointOverload { joint: name.clone() }, Effect::JointBreaks { joint: name });
             }
         }

@@ -7,24 +7,26 @@ use crate::scene::CharacterSpec;
 use sinew_control::graph::Cause as GraphCause;
 use sinew_control::source::{SourceEvent, StreamChange};
 use sinew_control::tracker::{KdTracker, KinematicTracker, Limp, PdTracker, ResponseTracker, Tracker, TrackerKind};
+use sinew_world::{CharacterId, PropId};
 
 impl Stage {
     /// Every actor decides, and its tracker tells the world.
     pub(crate) fn step_actors(&mut self) {
         let frame_secs = self.frame_secs();
         let mut events = Vec::new();
-        for index in 0..self.actors.len() {
+        for at in 0..self.actors.len() {
+            let index = self.actors[at].id;
             self.end_passing(index);
-            self.actors[index].advance(&self.world, &mut events);
+            self.actors[index.slot()].advance(&self.world, &mut events);
             for event in events.drain(..) {
                 self.tell(index, event);
             }
-            self.actors[index].follow(&mut self.world, frame_secs);
+            self.actors[index.slot()].follow(&mut self.world, frame_secs);
         }
     }
 
     /// Notes what a source of an actor has to tell, and does what follows from it.
-    fn tell(&mut self, index: usize, event: SourceEvent) {
+    fn tell(&mut self, index: CharacterId, event: SourceEvent) {
         let (cause, effect) = match event {
             SourceEvent::Stream(StreamChange { presence, replaces_understudy }) => {
                 (Cause::Stream, CharacterEffect::Performer { presence, replaces_understudy })
@@ -43,7 +45,7 @@ impl Stage {
             }
             SourceEvent::Reach(arrival) => return self.reach_arrives(index, &arrival),
         };
-        let name = self.cast.characters()[index].clone();
+        let name = self.cast.characters()[index.slot()].clone();
         self.note(cause, Effect::of(name, effect));
     }
 
@@ -55,17 +57,17 @@ impl Stage {
     ///
     /// # Errors
     /// When the response finds no coordinates in the motion; all stays as it was.
-    pub(crate) fn set_tracker(&mut self, index: usize, kind: TrackerKind) -> Result<(), String> {
-        let Some(spec) = self.scene.characters.values().nth(index) else { return Ok(()) };
+    pub(crate) fn set_tracker(&mut self, index: CharacterId, kind: TrackerKind) -> Result<(), String> {
+        let Some(spec) = self.scene.characters.values().nth(index.slot()) else { return Ok(()) };
         let tracker = self.tracker(index, spec, kind)?;
-        self.actors[index].set_tracker(tracker, spec.position_m[1], &mut self.world);
+        self.actors[index.slot()].set_tracker(tracker, spec.position_m[1], &mut self.world);
         Ok(())
     }
 
     /// A tracker for a character as the scene has it, at rest where the body is now.
-    fn tracker(&self, index: usize, spec: &CharacterSpec, kind: TrackerKind) -> Result<Box<dyn Tracker>, String> {
-        let (actor, frame_secs) = (&self.actors[index], self.frame_secs());
-        let now = self.world.frame().characters[index].pose();
+    fn tracker(&self, index: CharacterId, spec: &CharacterSpec, kind: TrackerKind) -> Result<Box<dyn Tracker>, String> {
+        let (actor, frame_secs) = (&self.actors[index.slot()], self.frame_secs());
+        let now = self.world.frame().characters[index.slot()].pose();
         let prop = |name: &String| self.cast.prop(name).ok_or_else(|| format!("no prop `{name}`"));
         Ok(match kind {
             TrackerKind::Kinematic => Box::new(KinematicTracker::new(frame_secs, &now)),
@@ -86,7 +88,7 @@ impl Stage {
                     let node = spec.node(part).ok_or_else(|| format!("no part or alias `{part}`"))?;
                     tracker.keep_upright(Some(node));
                 }
-                tracker.avoid(&spec.response.avoid.iter().map(prop).collect::<Result<Vec<usize>, String>>()?);
+                tracker.avoid(&spec.response.avoid.iter().map(prop).collect::<Result<Vec<PropId>, String>>()?);
                 Box::new(tracker)
             }
         })

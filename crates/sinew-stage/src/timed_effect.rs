@@ -3,33 +3,33 @@
 use crate::fade::Fade;
 use glam::DVec3;
 use sinew_body::humanoid::Node;
-use sinew_world::Entity;
+use sinew_world::{CharacterId, Entity, PropId};
 
 /// What ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expiry {
     /// Forces on a part are switched on again.
-    ForcesOff(usize, Node),
+    ForcesOff(CharacterId, Node),
     /// A character is freed from its plane.
-    Plane(usize),
+    Plane(CharacterId),
     /// A character's gravity goes back to its scale in the scene.
-    Gravity(usize),
+    Gravity(CharacterId),
     /// Gravity on a part goes back to the character's scale in the scene.
-    PartGravity(usize, Node),
+    PartGravity(CharacterId, Node),
     /// A prop's gravity goes back to its scale in the scene.
-    PropGravity(usize),
+    PropGravity(PropId),
     /// A part gets its own shape again.
-    Shape(usize, Node),
+    Shape(CharacterId, Node),
     /// A shape that was added to a part is taken away.
-    ExtraShape(usize, Node, String),
+    ExtraShape(CharacterId, Node, String),
     /// A part is held as the scene says (tracker `kd`).
-    Weights(usize, Node),
+    Weights(CharacterId, Node),
     /// The gains of the tracker `kd` are those of the scene.
-    Kd(usize),
+    Kd(CharacterId),
     /// Kinematic forces that were switched are switched back.
-    Pins(usize),
+    Pins(CharacterId),
     /// A moving prop keeps its speed.
-    Acceleration(usize),
+    Acceleration(PropId),
 }
 
 /// A force that lasts.

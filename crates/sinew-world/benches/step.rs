@@ -9,7 +9,7 @@ mod common;
 use common::{adult, hold, lifted, odd_pose, spec, standing};
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use glam::DVec3;
-use sinew_world::{CharacterSpec, World, WorldSettings};
+use sinew_world::{CharacterId, CharacterSpec, World, WorldSettings};
 use std::time::{Duration, Instant};
 
 /// Steps of one timed stretch: the fall from standing to lying, 7 to 26 contacts most of the time.
@@ -43,7 +43,7 @@ fn crowd(count: usize) -> World {
         let mut pose = standing(&body);
         pose.hips_position += DVec3::new((index % 10) as f64, 0.0, (index / 10) as f64) * 1.5;
         world.add_character(spec(&body, pose)).expect("a body");
-        hold(&mut world, index, 3.0);
+        hold(&mut world, CharacterId::first_in(index), 3.0);
     }
     for _ in 0..120 {
         world.step();
@@ -89,7 +89,7 @@ fn steps(criterion: &mut Criterion) {
         let mut world = World::new(WorldSettings::default());
         world.add_character(spec(&body, lifted(&body, common::supine(), 0.02))).expect("a body");
         common::steps(&mut world, 5.0);
-        assert!(world.is_asleep(0));
+        assert!(world.is_asleep(CharacterId::first_in(0)));
         bencher.iter_batched(|| (), |()| world.step(), BatchSize::SmallInput);
     });
 }

@@ -1,7 +1,7 @@
 //! Attachments: a part attached to a prop or to another character's part, by a rigid joint or a spring.
 
 use crate::rows::joint_impulse;
-use crate::{Entity, World};
+use crate::{CharacterId, Entity, World};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
@@ -10,7 +10,7 @@ use sinew_body::humanoid::Node;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     /// The character that holds.
-    pub character: usize,
+    pub character: CharacterId,
     /// With this part.
     pub node: Node,
     /// What it holds.
@@ -52,7 +52,7 @@ impl World {
         }
         let (Some(one), Some(other)) = (self.handle(Entity::Part(held.character, held.node)), self.handle(held.object))
         else {
-            return;
+            return self.count_stale();
         };
         let (Some(a), Some(b)) = (self.engine.bodies.get(one), self.engine.bodies.get(other)) else { return };
         let (a_at, b_at) = (*a.position(), *b.position());
@@ -92,7 +92,10 @@ impl World {
     }
 
     /// Detaches something.
-    pub fn detach(&mut self, character: usize, node: Node, object: Entity) {
+    pub fn detach(&mut self, character: CharacterId, node: Node, object: Entity) {
+        if self.characters.get(character).is_none() {
+            return self.count_stale();
+        }
         let joints = &mut self.engine.joints;
         self.attachments.retain(|attachment| {
             let held = &attachment.held;
@@ -105,7 +108,7 @@ impl World {
     }
 
     /// Whether a part holds something.
-    pub fn is_attached(&self, character: usize, node: Node, object: Entity) -> bool {
+    pub fn is_attached(&self, character: CharacterId, node: Node, object: Entity) -> bool {
         self.held().any(|held| held.character == character && held.node == node && held.object == object)
     }
 
@@ -127,7 +130,7 @@ impl World {
         &self.broken_holds
     }
 
-    fn mass_kg(&self, character: usize) -> f64 {
+    fn mass_kg(&self, character: CharacterId) -> f64 {
         self.characters.get(character).map_or(0.0, |one| one.body().mass_kg())
     }
 

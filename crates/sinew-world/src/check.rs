@@ -160,12 +160,12 @@ fn lie(spec: &CharacterSpec) -> Result<Lying, SpecError> {
     let on_its_back = exp(DVec3::X * -std::f64::consts::FRAC_PI_2);
     let mut pose = Pose { hips_position: DVec3::ZERO, world: [on_its_back; Node::COUNT] };
     pose.hips_position.y = 1.02 * deepest_m(&spec.body, &pose);
-    world.add_character(CharacterSpec { pose, velocity: DVec3::ZERO, ..spec.clone() })?;
+    let id = world.add_character(CharacterSpec { pose, velocity: DVec3::ZERO, ..spec.clone() })?;
     let mut lying = Lying { sleeps_after_secs: None, drift_m: 0.0, gap_m: 0.0 };
     let mut rest = None;
     for _ in 0..steps(&world) {
         world.step();
-        if lying.sleeps_after_secs.is_none() && world.is_asleep(0) {
+        if lying.sleeps_after_secs.is_none() && world.is_asleep(id) {
             lying.sleeps_after_secs = Some(world.frame().time_secs);
             rest = Some(places(&world));
         }
@@ -178,15 +178,15 @@ fn lie(spec: &CharacterSpec) -> Result<Lying, SpecError> {
 /// Fixes the body's hips and holds its joints by springs of 5 Hz: returns drift and largest gap.
 fn stay(spec: &CharacterSpec) -> Result<(f64, f64), SpecError> {
     let mut world = World::new(WorldSettings { floor: None, ..WorldSettings::default() });
-    world.add_character(CharacterSpec { velocity: DVec3::ZERO, ..spec.clone() })?;
+    let id = world.add_character(CharacterSpec { velocity: DVec3::ZERO, ..spec.clone() })?;
     let omega = std::f64::consts::TAU * 5.0;
     for node in Node::ALL {
-        let inertia = world.outboard_inertia(0, node);
+        let inertia = world.outboard_inertia(id, node);
         let rotation = spec.pose.local(node);
         let (stiffness, damping) = (inertia * omega * omega, 2.0 * inertia * omega);
-        world.set_drive(0, node, Drive { rotation, stiffness, damping, ..Drive::limp(0.0) });
+        world.set_drive(id, node, Drive { rotation, stiffness, damping, ..Drive::limp(0.0) });
     }
-    world.set_forces(0, Node::Hips, false);
+    world.set_forces(id, Node::Hips, false);
     // It sags first.
     for _ in 0..steps(&world) / 2 {
         world.step();

@@ -1,7 +1,7 @@
 //! The collision filter: pairs that pass through each other instead of colliding.
 
 use crate::engine::untag;
-use crate::{Entity, World};
+use crate::{CharacterId, Entity, PropId, World};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
@@ -11,13 +11,19 @@ pub(crate) struct CollisionFilter {
     /// Self-collision, by character and part: a bit for each of its own parts that it passes through.
     pub own: Vec<[u32; Node::COUNT]>,
     /// Characters' parts and the props that they pass through.
-    pub props: Vec<(usize, Node, usize)>,
+    pub props: Vec<(CharacterId, Node, PropId)>,
 }
 
 impl CollisionFilter {
+    /// Makes room for a character, which passes through nothing.
+    pub fn add_character(&mut self, character: CharacterId) {
+        self.own.resize(self.own.len().max(character.slot() + 1), [0; Node::COUNT]);
+        self.own[character.slot()] = [0; Node::COUNT];
+    }
+
     /// Whether a part passes through anything.
-    fn asks(&self, character: usize, node: Node) -> bool {
-        self.own.get(character).is_some_and(|masks| masks[node.index()] != 0)
+    fn asks(&self, character: CharacterId, node: Node) -> bool {
+        self.own.get(character.slot()).is_some_and(|masks| masks[node.index()] != 0)
             || self.props.iter().any(|(owner, part, _)| (*owner, *part) == (character, node))
     }
 }
@@ -27,7 +33,7 @@ impl PhysicsHooks for CollisionFilter {
         let entity = |handle: ColliderHandle| untag(context.colliders.get(handle)?.user_data);
         match (entity(context.collider1), entity(context.collider2)) {
             (Some(Entity::Part(one, node)), Some(Entity::Part(other, part))) if one == other => {
-                let passes = self.own.get(one).is_some_and(|masks| masks[node.index()] & 1 << part.index() != 0);
+                let passes = self.own.get(one.slot()).is_some_and(|masks| masks[node.index()] & 1 << part.index() != 0);
                 (!passes).then(SolverFlags::default)
             }
             (Some(Entity::Part(owner, node)), Some(Entity::Prop(prop)))
@@ -44,8 +50,11 @@ impl PhysicsHooks for CollisionFilter {
 impl World {
     /// Which of its own parts pass through each other instead of colliding: by [`Node::index`], a bit for each other part; pairs
     /// are named from both sides.
-    pub fn set_passes_own(&mut self, character: usize, masks: [u32; Node::COUNT]) {
-        let Some(passing) = self.engine.collision_filter.own.get_mut(character) else { return };
+    pub fn set_passes_own(&mut self, character: CharacterId, masks: [u32; Node::COUNT]) {
+        if self.characters.get(character).is_none() {
+            return self.count_stale();
+        }
+        let Some(passing) = self.engine.collision_filter.own.get_mut(character.slot()) else { return };
         let before = std::mem::replace(passing, masks);
         for node in Node::ALL {
             if (before[node.index()] == 0) != (masks[node.index()] == 0) {
@@ -57,7 +66,10 @@ impl World {
     /// Filters collisions between a part and a prop, or stops filtering. Takes effect once one of the two moves. The
     /// [`Frame`](crate::Frame) keeps reporting their contacts. For hands, which have no fingers to close around an
     /// object that they reach for.
-    pub fn set_passes_prop(&mut self, character: usize, node: Node, prop: usize, on: bool) {
+    pub fn set_passes_prop(&mut self, character: CharacterId, node: Node, prop: PropId, on: bool) {
+        if self.characters.get(character).is_none() || self.props.get(prop).is_none() {
+            return self.count_stale();
+        }
         let props = &mut self.engine.collision_filter.props;
         let pair = (character, node, prop);
         match props.iter().position(|other| *other == pair) {
@@ -69,7 +81,7 @@ impl World {
     }
 
     /// The hook has a cost for every contact in each step, so it is active only for filtered parts.
-    fn let_ask(&mut self, character: usize, node: Node) {
+    fn let_ask(&mut self, character: CharacterId, node: Node) {
         let asks = self.engine.collision_filter.asks(character, node);
         let Some(one) = self.characters.get(character) else { return };
         if let Some(collider) = self.engine.colliders.get_mut(one.colliders[node.index()]) {

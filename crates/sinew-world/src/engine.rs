@@ -1,7 +1,7 @@
 //! The rigid-body library's own sets, in one place: its types are private to this crate.
 
 use crate::collision_filter::CollisionFilter;
-use crate::{Entity, WorldSettings};
+use crate::{CharacterId, Entity, PropId, WorldSettings};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
@@ -102,18 +102,26 @@ impl Engine {
 pub(crate) fn tag(entity: Entity) -> u128 {
     match entity {
         Entity::Floor => 1,
-        Entity::Prop(prop) => 2 | (prop as u128) << 8,
-        Entity::Part(character, node) => 3 | (node.index() as u128) << 8 | (character as u128) << 16,
+        Entity::Prop(prop) => 2 | packed(prop.slot(), prop.generation()),
+        Entity::Part(character, node) => {
+            3 | (node.index() as u128) << 8 | packed(character.slot(), character.generation())
+        }
     }
 }
 
+fn packed(slot: usize, generation: u32) -> u128 {
+    (slot as u128) << 16 | u128::from(generation) << 64
+}
+
 pub(crate) fn untag(tag: u128) -> Option<Entity> {
+    let slot = usize::try_from(tag >> 16 & 0xffff_ffff).ok()?;
+    let generation = u32::try_from(tag >> 64).ok()?;
     match tag & 0xff {
         1 => Some(Entity::Floor),
-        2 => Some(Entity::Prop(usize::try_from(tag >> 8).ok()?)),
+        2 => Some(Entity::Prop(PropId::new(slot, generation))),
         3 => {
             let node = *Node::ALL.get(usize::try_from(tag >> 8 & 0xff).ok()?)?;
-            Some(Entity::Part(usize::try_from(tag >> 16).ok()?, node))
+            Some(Entity::Part(CharacterId::new(slot, generation), node))
         }
         _ => None,
     }

@@ -2,7 +2,7 @@
 
 use crate::character::Hold;
 use crate::rows::joint_impulse;
-use crate::{Entity, World, ragdoll};
+use crate::{CharacterId, Entity, World, ragdoll};
 use glam::{DMat3, DVec3};
 use sinew_body::humanoid::Node;
 
@@ -54,10 +54,10 @@ pub(crate) struct Before {
 
 impl World {
     /// Reads the external forces of the last step on a character.
-    pub(crate) fn meter(&mut self, index: usize) {
+    pub(crate) fn meter(&mut self, id: CharacterId) {
         let step_secs = self.settings.step_secs();
         let sub_step_secs = step_secs / self.engine.parameters.num_solver_iterations as f64;
-        let character = &self.characters[index];
+        let Some(character) = self.characters.get(id) else { return };
         let mut spent = [ExternalForces::NONE; Node::COUNT];
         for node in Node::ALL {
             let at = node.index();
@@ -75,7 +75,7 @@ impl World {
             let force = -joint_impulse(joint, &self.engine.bodies) / sub_step_secs;
             spent[node.index()].held.add(force, DVec3::ZERO, body.linvel(), DVec3::ZERO);
         }
-        for attachment in self.attachments.iter().filter(|one| one.held.character == index) {
+        for attachment in self.attachments.iter().filter(|one| one.held.character == id) {
             let is_of_the_world = match attachment.held.object {
                 Entity::Floor => true,
                 Entity::Prop(prop) => {
@@ -92,22 +92,22 @@ impl World {
             }
         }
         for node in Node::ALL.into_iter().filter(|node| character.holds[node.index()] != Hold::Free) {
-            let (force, torque) = self.moved_by(index, node, step_secs, sub_step_secs);
+            let (force, torque) = self.moved_by(id, node, step_secs, sub_step_secs);
             let Some(body) = self.engine.bodies.get(character.bodies[node.index()]) else { continue };
             spent[node.index()].held.add(force, torque, body.linvel(), body.angvel());
         }
-        self.frame.characters[index].external = spent;
+        self.frame.characters[id.slot()].external = spent;
     }
 
     /// Force and torque that move a part whose physics is off: those that its motion requires beyond weight, joints and
     /// contacts.
-    fn moved_by(&self, index: usize, node: Node, step_secs: f64, sub_step_secs: f64) -> (DVec3, DVec3) {
-        let character = &self.characters[index];
+    fn moved_by(&self, id: CharacterId, node: Node, step_secs: f64, sub_step_secs: f64) -> (DVec3, DVec3) {
+        let Some(character) = self.characters.get(id) else { return (DVec3::ZERO, DVec3::ZERO) };
         let Some(body) = self.engine.bodies.get(character.bodies[node.index()]) else {
             return (DVec3::ZERO, DVec3::ZERO);
         };
         let link = character.body().link(node);
-        let (before, centre) = (&character.before[node.index()], self.frame.characters[index].part(node).centre);
+        let (before, centre) = (&character.before[node.index()], self.frame.characters[id.slot()].part(node).centre);
         let rotation = DMat3::from_quat(*body.rotation());
         let inertia = DMat3::from_diagonal(ragdoll::part_inertia(character.body(), node));
         let turning = (body.angvel() - before.spin) / step_secs;
@@ -123,12 +123,12 @@ impl World {
             };
             let Some(joint) = self.engine.joints.get(character.joints[child.index()]) else { continue };
             let borne = character.borne[child.index()].after(joint, &self.engine.bodies, sub_step_secs);
-            let place = self.frame.characters[index].part(child).position;
+            let place = self.frame.characters[id.slot()].part(child).position;
             force -= borne.force * sign;
             torque -= ((place - centre).cross(borne.force) + borne.torque) * sign;
         }
         for contact in &self.frame.contacts {
-            let own = Entity::Part(index, node);
+            let own = Entity::Part(id, node);
             let sign = if contact.b == own { 1.0 } else { -1.0 };
             if contact.a == own || contact.b == own {
                 let push = contact.impulse * (sign / step_secs);

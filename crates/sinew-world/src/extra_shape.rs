@@ -1,7 +1,7 @@
 //! Collision shapes on top of a part's own, added and removed while the world runs (Shapiro et al. 2007, section 4.2).
 
 use crate::ragdoll::part_collider;
-use crate::{Solid, SpecError, World};
+use crate::{CharacterId, Solid, SpecError, World};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
@@ -20,9 +20,18 @@ impl World {
     ///
     /// # Errors
     /// The shape is degenerate, or the character already has 64 of them.
-    pub fn add_shape(&mut self, character: usize, node: Node, name: &str, solid: &Solid) -> Result<(), SpecError> {
+    pub fn add_shape(
+        &mut self,
+        character: CharacterId,
+        node: Node,
+        name: &str,
+        solid: &Solid,
+    ) -> Result<(), SpecError> {
+        if self.characters.get(character).is_none() {
+            return Err(SpecError::StaleCharacter(character));
+        }
         self.remove_shape(character, node, name);
-        let Some(one) = self.characters.get_mut(character) else { return Ok(()) };
+        let Some(one) = self.characters.get_mut(character) else { return Err(SpecError::StaleCharacter(character)) };
         if one.extra_shapes.len() >= MAX_EXTRA_SHAPES {
             return Err(SpecError::TooManyShapes);
         }
@@ -34,8 +43,11 @@ impl World {
     }
 
     /// Removes an added shape. False if the part has none of that name.
-    pub fn remove_shape(&mut self, character: usize, node: Node, name: &str) -> bool {
-        let Some(one) = self.characters.get_mut(character) else { return false };
+    pub fn remove_shape(&mut self, character: CharacterId, node: Node, name: &str) -> bool {
+        let Some(one) = self.characters.get_mut(character) else {
+            self.count_stale();
+            return false;
+        };
         let Some(place) = one.extra_shapes.iter().position(|extra| extra.node == node && extra.name == name) else {
             return false;
         };

@@ -1,6 +1,6 @@
 //! The state of a world after a step: everything that controllers read, files store and clients receive.
 
-use crate::{ExternalForces, margin};
+use crate::{CharacterId, ExternalForces, PropId, margin};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose};
 
@@ -9,10 +9,10 @@ use sinew_body::humanoid::{Node, Pose};
 pub enum Entity {
     /// The ground.
     Floor,
-    /// A prop, by its place in [`Frame::props`].
-    Prop(usize),
-    /// A part of a character, by its place in [`Frame::characters`].
-    Part(usize, Node),
+    /// A prop.
+    Prop(PropId),
+    /// A part of a character.
+    Part(CharacterId, Node),
 }
 
 /// Pose and velocity of a rigid body, in world axes.
@@ -71,10 +71,15 @@ pub struct Frame {
     pub step: u64,
     /// Time since the start \[s\].
     pub time_secs: f64,
-    /// Characters in the order in which they were added.
+    /// Characters by [`CharacterId::slot`]: in the order in which they were added, as long as none is removed. A vacant slot holds
+    /// [`CharacterFrame::EMPTY`].
     pub characters: Vec<CharacterFrame>,
-    /// Props in the order in which they were added.
+    /// Who is in each of these slots; `None` in a vacant one.
+    pub character_ids: Vec<Option<CharacterId>>,
+    /// Props by [`PropId::slot`]; a vacant slot holds [`BodyState::REST`].
     pub props: Vec<BodyState>,
+    /// What is in each of these slots; `None` in a vacant one.
+    pub prop_ids: Vec<Option<PropId>>,
     /// All contacts, in a fixed order.
     pub contacts: Vec<Contact>,
 }
@@ -124,6 +129,43 @@ impl CharacterFrame {
 }
 
 impl Frame {
+    /// A frame of characters and props as those that were put first into their slots, with no contacts, at the start.
+    pub fn of(characters: Vec<CharacterFrame>, props: Vec<BodyState>) -> Frame {
+        Frame {
+            character_ids: (0..characters.len()).map(|slot| Some(CharacterId::first_in(slot))).collect(),
+            prop_ids: (0..props.len()).map(|slot| Some(PropId::first_in(slot))).collect(),
+            characters,
+            props,
+            ..Frame::default()
+        }
+    }
+
+    /// A character; `None` for a stale id.
+    pub fn character(&self, id: CharacterId) -> Option<&CharacterFrame> {
+        self.characters.get(id.slot()).filter(|_| self.character_ids.get(id.slot()) == Some(&Some(id)))
+    }
+
+    /// A prop; `None` for a stale id.
+    pub fn prop(&self, id: PropId) -> Option<&BodyState> {
+        self.props.get(id.slot()).filter(|_| self.prop_ids.get(id.slot()) == Some(&Some(id)))
+    }
+
+    /// Makes room for a character that was added.
+    pub(crate) fn add_character(&mut self, id: CharacterId) {
+        let slots = self.characters.len().max(id.slot() + 1);
+        self.characters.resize(slots, CharacterFrame::EMPTY);
+        self.character_ids.resize(slots, None);
+        self.character_ids[id.slot()] = Some(id);
+    }
+
+    /// Makes room for a prop that was added.
+    pub(crate) fn add_prop(&mut self, id: PropId) {
+        let slots = self.props.len().max(id.slot() + 1);
+        self.props.resize(slots, BodyState::REST);
+        self.prop_ids.resize(slots, None);
+        self.prop_ids[id.slot()] = Some(id);
+    }
+
     /// A hash of the bits of every position and velocity: equal for equal worlds, on any machine. A client that
     /// receives the frame can compute it and compare it with others of the same [`Frame::step`].
     pub fn hash(&self) -> u64 {
@@ -134,6 +176,14 @@ impl Frame {
             let vectors = [body.position, body.velocity, body.angular_velocity];
             for number in vectors.iter().flat_map(|vector| vector.to_array()).chain(rotation) {
                 hasher.update(&number.to_bits().to_le_bytes());
+            }
+        }
+        // Only where slots are vacant or used again, so that all other worlds keep their hashes.
+        let characters = self.character_ids.iter().map(|id| id.map(CharacterId::generation));
+        let props = self.prop_ids.iter().map(|id| id.map(PropId::generation));
+        if characters.clone().chain(props.clone()).any(|generation| generation != Some(0)) {
+            for generation in characters.chain(props) {
+                hasher.update(&generation.map_or(u64::MAX, u64::from).to_le_bytes());
             }
         }
         hasher.digest()

@@ -1,6 +1,6 @@
 //! Nearest points on the surface of a prop.
 
-use crate::{Entity, World};
+use crate::{CharacterId, Entity, PropId, World};
 use glam::DVec3;
 use rapier3d_f64::prelude::RigidBodyHandle;
 use sinew_body::humanoid::Node;
@@ -18,19 +18,19 @@ pub struct Nearest {
 
 impl World {
     /// The point of a prop's surface nearest to a point; `None` if the prop does not exist or the point is not finite.
-    pub fn nearest_on_prop(&self, prop: usize, point: DVec3) -> Option<Nearest> {
+    pub fn nearest_on_prop(&self, prop: PropId, point: DVec3) -> Option<Nearest> {
         self.nearest_on(self.props.get(prop)?.handle, point)
     }
 
     /// The thing whose surface is nearest to a part's centre of mass and no farther from it than this \[m\]: a prop
     /// that is not a sensor, or another character's part.
-    pub fn nearest_to_part(&self, character: usize, node: Node, within_m: f64) -> Option<Entity> {
-        let centre = self.frame.characters.get(character)?.part(node).centre;
-        let props = self.props.iter().enumerate().filter(|(_, prop)| !prop.spec.is_sensor);
-        let props = props.map(|(index, prop)| (Entity::Prop(index), prop.handle));
-        let others = self.characters.iter().enumerate().filter(|(index, _)| *index != character);
-        let parts = others.flat_map(|(index, other)| {
-            Node::ALL.into_iter().zip(other.bodies).map(move |(part, handle)| (Entity::Part(index, part), handle))
+    pub fn nearest_to_part(&self, character: CharacterId, node: Node, within_m: f64) -> Option<Entity> {
+        let centre = self.frame.character(character)?.part(node).centre;
+        let props = self.props.iter().filter(|(_, prop)| !prop.spec.is_sensor);
+        let props = props.map(|(id, prop)| (Entity::Prop(id), prop.handle));
+        let others = self.characters.iter().filter(|(id, _)| *id != character);
+        let parts = others.flat_map(|(id, other)| {
+            Node::ALL.into_iter().zip(other.bodies).map(move |(part, handle)| (Entity::Part(id, part), handle))
         });
         let near = props.chain(parts).filter_map(|(thing, handle)| {
             let nearest = self.nearest_on(handle, centre)?;
@@ -60,7 +60,7 @@ impl World {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Form, Motion, PropSpec, Solid, World, WorldSettings};
+    use crate::{Form, Motion, PropId, PropSpec, Solid, World, WorldSettings};
     use glam::DVec3;
 
     #[test]
@@ -75,6 +75,6 @@ mod tests {
         assert!((corner.distance_m - 5.0).abs() < 1e-12);
         let inside = world.nearest_on_prop(prop, DVec3::new(5.0, 0.9, 0.0)).expect("a prop");
         assert!((inside.distance_m + 0.1).abs() < 1e-12 && (inside.outward - DVec3::Y).length() < 1e-12);
-        assert_eq!(world.nearest_on_prop(prop + 1, DVec3::ZERO), None);
+        assert_eq!(world.nearest_on_prop(PropId::first_in(1), DVec3::ZERO), None);
     }
 }

@@ -3,14 +3,14 @@
 //! Every part keeps its distance to a vertical plane and rotates about the plane's normal alone, by rows of the solver:
 //! forces across the plane are resolved by the constraint, those along it act unchanged.
 
-use crate::World;
+use crate::{CharacterId, World};
 use glam::{DMat3, DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 
 impl World {
     /// Constrains a character to vertical planes that contain `facing` (horizontal) and pass through each part at its
     /// present position.
-    pub fn hold_to_plane(&mut self, character: usize, facing: DVec3) {
+    pub fn hold_to_plane(&mut self, character: CharacterId, facing: DVec3) {
         self.free_from_plane(character);
         let Some(normal) = DVec3::Y.cross(facing).try_normalize() else { return };
         let Some(one) = self.characters.get_mut(character) else { return };
@@ -38,15 +38,15 @@ impl World {
     }
 
     /// Frees a character to three dimensions again.
-    pub fn free_from_plane(&mut self, character: usize) {
-        let Some(one) = self.characters.get_mut(character) else { return };
+    pub fn free_from_plane(&mut self, character: CharacterId) {
+        let Some(one) = self.characters.get_mut(character) else { return self.count_stale() };
         for joint in one.planes.drain(..) {
             self.engine.joints.remove(joint, true);
         }
     }
 
     /// Whether a character is constrained to a plane.
-    pub fn is_held_to_plane(&self, character: usize) -> bool {
+    pub fn is_held_to_plane(&self, character: CharacterId) -> bool {
         self.characters.get(character).is_some_and(|one| !one.planes.is_empty())
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::engine::{Engine, tag};
 use crate::solid::Form;
-use crate::{Entity, Motion, PropSpec, SpecError, sanitize};
+use crate::{Entity, Motion, PropId, PropSpec, SpecError, sanitize};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 
@@ -14,7 +14,7 @@ pub(crate) struct Prop {
 }
 
 impl Prop {
-    pub fn build(engine: &mut Engine, spec: PropSpec, index: usize) -> Result<Prop, SpecError> {
+    pub fn build(engine: &mut Engine, spec: PropSpec, id: PropId) -> Result<Prop, SpecError> {
         let (Some(rotation), Some(velocity), Some(spin), Some(gravity_scale)) = (
             sanitize::unit(spec.rotation).filter(|_| sanitize::is_place(spec.position)),
             sanitize::velocity(spec.velocity),
@@ -52,7 +52,7 @@ impl Prop {
             .restitution(surface.bounce)
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .sensor(spec.is_sensor)
-            .user_data(tag(Entity::Prop(index)));
+            .user_data(tag(Entity::Prop(id)));
         if spec.is_sensor {
             // A sensor also detects fixed and kinematic bodies.
             collider = collider.active_collision_types(ActiveCollisionTypes::all());

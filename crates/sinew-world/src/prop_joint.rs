@@ -5,7 +5,7 @@
 
 use crate::joint::stop_at;
 use crate::rows::joint_impulse;
-use crate::{Entity, SpecError, World, sanitize};
+use crate::{Entity, PropJointId, SpecError, World, sanitize};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 
@@ -118,18 +118,16 @@ pub(crate) struct PropJoint {
 }
 
 impl World {
-    /// Connects two bodies at their present poses. Returns the joint's number.
+    /// Connects two bodies at their present poses. Returns the joint's id.
     ///
     /// # Errors
     /// The two are the same or do not exist, a number is invalid, or a joint that is neither hinge nor slider has a
     /// motor.
-    pub fn add_prop_joint(&mut self, spec: PropJointSpec) -> Result<usize, SpecError> {
-        if !is_sound(&spec) || self.prop_joints.len() >= MAX_JOINTS {
+    pub fn add_prop_joint(&mut self, spec: PropJointSpec) -> Result<PropJointId, SpecError> {
+        if !is_sound(&spec) || self.prop_joints.count() >= MAX_JOINTS {
             return Err(SpecError::NoJoint);
         }
-        let (Some(one), Some(other)) = (self.handle(spec.between[0]), self.handle(spec.between[1])) else {
-            return Err(SpecError::NoJoint);
-        };
+        let [one, other] = [self.living(spec.between[0])?, self.living(spec.between[1])?];
         let (Some(a), Some(b)) = (self.engine.bodies.get(one), self.engine.bodies.get(other)) else {
             return Err(SpecError::NoJoint);
         };
@@ -155,33 +153,36 @@ impl World {
         joint.set_local_frame1(frames[0]);
         joint.set_local_frame2(frames[1]);
         let handle = self.engine.joints.insert(one, other, joint, true);
-        self.prop_joints.push(PropJoint { spec, handle: Some(handle), bodies: [one, other], frames, before: 0.0 });
-        Ok(self.prop_joints.len() - 1)
+        Ok(self.prop_joints.insert(PropJoint { spec, handle: Some(handle), bodies: [one, other], frames, before: 0.0 }))
     }
 
     /// Sets the motor of a hinge or a slider, or releases it with `None`. Takes effect in the next step. Without effect
     /// for other joints and for invalid numbers.
-    pub fn set_prop_motor(&mut self, joint: usize, motor: Option<Motor>) {
-        let Some(joint) = self.prop_joints.get_mut(joint) else { return };
+    pub fn set_prop_motor(&mut self, joint: PropJointId, motor: Option<Motor>) {
+        let Some(joint) = self.prop_joints.get_mut(joint) else { return self.count_stale() };
         if motor.is_none_or(|motor| is_motor(&motor, &joint.spec.kind)) {
             joint.spec.motor = motor;
         }
     }
 
     /// The motor of a joint.
-    pub fn prop_motor(&self, joint: usize) -> Option<Motor> {
+    pub fn prop_motor(&self, joint: PropJointId) -> Option<Motor> {
         self.prop_joints.get(joint)?.spec.motor
     }
 
     /// Cuts a joint permanently. False if it is cut or broken already, or does not exist.
-    pub fn cut_prop_joint(&mut self, joint: usize) -> bool {
-        let Some(handle) = self.prop_joints.get_mut(joint).and_then(|joint| joint.handle.take()) else { return false };
+    pub fn cut_prop_joint(&mut self, joint: PropJointId) -> bool {
+        let Some(joint) = self.prop_joints.get_mut(joint) else {
+            self.count_stale();
+            return false;
+        };
+        let Some(handle) = joint.handle.take() else { return false };
         self.engine.joints.remove(handle, true);
         true
     }
 
     /// The present state of a joint. One that does not exist is not whole.
-    pub fn prop_joint(&self, joint: usize) -> PropJointState {
+    pub fn prop_joint(&self, joint: PropJointId) -> PropJointState {
         let Some(joint) = self.prop_joints.get(joint) else { return PropJointState::default() };
         let bodies = joint.bodies.map(|handle| self.engine.bodies.get(handle));
         let [Some(one), Some(other)] = bodies else { return PropJointState::default() };
@@ -189,9 +190,18 @@ impl World {
         PropJointState { is_whole: joint.handle.is_some(), place, speed }
     }
 
+    /// The body of something that is there.
+    fn living(&self, entity: Entity) -> Result<RigidBodyHandle, SpecError> {
+        self.handle(entity).ok_or(match entity {
+            Entity::Prop(prop) => SpecError::StaleProp(prop),
+            Entity::Part(character, _) => SpecError::StaleCharacter(character),
+            Entity::Floor => SpecError::NoJoint,
+        })
+    }
+
     /// Passes the joints of props to the solver.
     pub(crate) fn prepare_prop_joints(&mut self) {
-        for joint in &mut self.prop_joints {
+        for joint in self.prop_joints.values_mut() {
             joint.prepare(&mut self.engine.joints, &self.engine.bodies);
         }
     }
@@ -201,7 +211,7 @@ impl World {
         let step_secs = self.settings.step_secs();
         let sub_step_secs = step_secs / self.engine.parameters.num_solver_iterations as f64;
         let (joints, bodies) = (&mut self.engine.joints, &self.engine.bodies);
-        for prop_joint in &mut self.prop_joints {
+        for prop_joint in self.prop_joints.values_mut() {
             let (Some(limit), Some(handle)) = (prop_joint.spec.break_force_n, prop_joint.handle) else { continue };
             let Some(joint) = joints.get(handle) else { continue };
             let force_n = match prop_joint.spec.kind {

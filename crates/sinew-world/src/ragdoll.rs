@@ -7,7 +7,7 @@
 use crate::character::Character;
 use crate::engine::Engine;
 use crate::solid::Form;
-use crate::{CharacterSpec, Drive, Entity, Solid, SpecError, Surface, sanitize};
+use crate::{CharacterId, CharacterSpec, Drive, Entity, Solid, SpecError, Surface, sanitize};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node, Pose as BodyPose, Sole};
@@ -93,7 +93,7 @@ pub(crate) fn part_inertia(body: &Body, node: Node) -> DVec3 {
     body.link(node).inertia.max(DVec3::splat(least))
 }
 
-pub(crate) fn build(engine: &mut Engine, spec: &CharacterSpec, index: usize) -> Result<Character, SpecError> {
+pub(crate) fn build(engine: &mut Engine, spec: &CharacterSpec, id: CharacterId) -> Result<Character, SpecError> {
     let body = &spec.body;
     if let Some(node) = sanitize::faulty_part(body) {
         return Err(SpecError::NoMass(node.part().name()));
@@ -120,7 +120,7 @@ pub(crate) fn build(engine: &mut Engine, spec: &CharacterSpec, index: usize) -> 
             .additional_mass_properties(mass);
         let handle = engine.bodies.insert(rigid);
         let solid = part_solid(body, node);
-        let collider = part_collider(&solid, spec.surface, index, node).ok_or(SpecError::NoShape)?;
+        let collider = part_collider(&solid, spec.surface, id, node).ok_or(SpecError::NoShape)?;
         bodies[node.index()] = handle;
         colliders[node.index()] = engine.colliders.insert_with_parent(collider, handle, &mut engine.bodies);
     }
@@ -152,7 +152,7 @@ pub(crate) fn is_hinge(node: Node) -> bool {
     matches!(node, Node::LeftLowerLeg | Node::RightLowerLeg)
 }
 
-pub(crate) fn part_collider(solid: &Solid, surface: Surface, character: usize, node: Node) -> Option<Collider> {
+pub(crate) fn part_collider(solid: &Solid, surface: Surface, character: CharacterId, node: Node) -> Option<Collider> {
     Some(
         ColliderBuilder::new(solid.shape()?)
             .position(solid.placement())

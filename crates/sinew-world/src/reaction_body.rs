@@ -1,8 +1,8 @@
 //! The reaction body of a character's pins: a prop that receives the opposite of their forces, or none.
 
-use crate::World;
 use crate::engine::Engine;
 use crate::external_force::Before;
+use crate::{CharacterId, PropId, World};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
@@ -24,9 +24,11 @@ impl World {
     /// The prop receives them through a low-pass filter, a few steps late: by the ratio of the body's mass, and of its
     /// moment of inertia about the prop, to the prop's own. Pins do not account for the motion of a light prop under
     /// them, and would shake it.
-    pub fn set_reaction_body(&mut self, character: usize, prop: Option<usize>) {
+    pub fn set_reaction_body(&mut self, character: CharacterId, prop: Option<PropId>) {
         let handle = prop.and_then(|prop| Some(self.props.get(prop)?.handle));
-        let Some(character) = self.characters.get_mut(character) else { return };
+        let (Some(character), true) = (self.characters.get_mut(character), prop.is_some() == handle.is_some()) else {
+            return self.count_stale();
+        };
         if character.reaction_body.map(|reaction_body| reaction_body.prop) != handle {
             character.reaction_body = handle.map(|prop| ReactionBody { prop, force: DVec3::ZERO, torque: DVec3::ZERO });
         }

@@ -1,10 +1,11 @@
 //! Readback of the world into its [`Frame`], and reset of bodies that became invalid.
 
+use crate::character::Character;
 use crate::engine::untag;
 use crate::frame::{BodyState, CharacterFrame, Contact, Entity};
 use crate::sanitize::is_place;
 use crate::support::keep_hull;
-use crate::{ExternalForces, World, ragdoll};
+use crate::{CharacterId, ExternalForces, PropId, World, ragdoll};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
@@ -14,7 +15,7 @@ use sinew_body::humanoid::Node;
 pub(crate) struct Readback {
     touching_before: Vec<(Entity, Entity)>,
     /// Support points of characters: character, point.
-    standing: Vec<(usize, DVec3)>,
+    standing: Vec<(CharacterId, DVec3)>,
     hull: Vec<DVec3>,
 }
 
@@ -22,44 +23,32 @@ pub(crate) struct Readback {
 const CARRYING: f64 = 0.5;
 
 impl World {
-    /// Adds new bodies to the frame; existing ones stay as the last step left them.
-    pub(crate) fn read_back_new(&mut self) {
-        while self.frame.characters.len() < self.characters.len() {
-            self.frame.characters.push(CharacterFrame::EMPTY);
-            self.read_back_character(self.frame.characters.len() - 1);
-        }
-        while self.frame.props.len() < self.props.len() {
-            self.frame.props.push(BodyState::REST);
-            self.look_at_prop(self.frame.props.len() - 1);
-        }
-    }
-
     /// Reads the frame.
-    pub(crate) fn look(&mut self) {
-        for index in 0..self.characters.len() {
-            self.read_back_character(index);
+    pub(crate) fn read_back(&mut self) {
+        for slot in 0..self.characters.count() {
+            self.characters.id_in(slot).inspect(|&id| self.read_back_character(id));
         }
-        for index in 0..self.props.len() {
-            self.look_at_prop(index);
+        for slot in 0..self.props.count() {
+            self.props.id_in(slot).inspect(|&id| self.read_back_prop(id));
         }
-        self.look_at_contacts();
-        for index in 0..self.characters.len() {
-            self.meter(index);
+        self.read_back_contacts();
+        for slot in 0..self.characters.count() {
+            self.characters.id_in(slot).inspect(|&id| self.meter(id));
         }
     }
 
-    pub(crate) fn read_back_character(&mut self, index: usize) {
-        let character = &self.characters[index];
+    pub(crate) fn read_back_character(&mut self, id: CharacterId) {
+        let Some(character) = self.characters.get(id) else { return };
         let sound = character
             .bodies
             .iter()
             .all(|&handle| self.engine.bodies.get(handle).is_some_and(|body| body.is_enabled() && is_sound(body)));
-        self.frame.characters[index].was_reset = !sound;
+        self.frame.characters[id.slot()].was_reset = !sound;
         if !sound {
-            self.put_back(index);
+            self.put_back(id);
         }
-        let character = &self.characters[index];
-        let frame = &mut self.frame.characters[index];
+        let Some(character) = self.characters.get(id) else { return };
+        let frame = &mut self.frame.characters[id.slot()];
         let (mut mass, mut moment, mut momentum) = (0.0, DVec3::ZERO, DVec3::ZERO);
         for node in Node::ALL {
             let Some(body) = self.engine.bodies.get(character.bodies[node.index()]) else { continue };
@@ -83,14 +72,14 @@ impl World {
     }
 
     /// The last valid pose of every part, at rest.
-    fn put_back(&mut self, index: usize) {
-        self.characters[index].borne = Default::default();
-        let character = &self.characters[index];
-        let known = self.frame.step > 0 && self.frame.characters[index].parts[0] != BodyState::REST;
+    fn put_back(&mut self, id: CharacterId) {
+        let Some(character) = self.characters.get_mut(id) else { return };
+        character.borne = Default::default();
+        let known = self.frame.step > 0 && self.frame.characters[id.slot()].parts[0] != BodyState::REST;
         let start = character.spec.pose.positions(character.body());
         for node in Node::ALL {
             let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) else { continue };
-            let part = &self.frame.characters[index].parts[node.index()];
+            let part = &self.frame.characters[id.slot()].parts[node.index()];
             let (position, rotation) = if known {
                 (part.position, part.rotation)
             } else {
@@ -103,22 +92,23 @@ impl World {
         }
     }
 
-    fn look_at_prop(&mut self, index: usize) {
-        let Some(body) = self.engine.bodies.get_mut(self.props[index].handle) else { return };
+    pub(crate) fn read_back_prop(&mut self, id: PropId) {
+        let Some(prop) = self.props.get(id) else { return };
+        let Some(body) = self.engine.bodies.get_mut(prop.handle) else { return };
         if !(body.is_enabled() && is_sound(body)) {
-            let before = self.frame.props[index];
+            let before = self.frame.props[id.slot()];
             let known = self.frame.step > 0;
-            let spec = &self.props[index].spec;
+            let spec = &prop.spec;
             let place = if known { (before.position, before.rotation) } else { (spec.position, spec.rotation) };
             body.set_enabled(true);
             body.set_position(Pose::from_parts(place.0, place.1), true);
             body.set_linvel(DVec3::ZERO, true);
             body.set_angvel(DVec3::ZERO, true);
         }
-        self.frame.props[index] = state_of(body);
+        self.frame.props[id.slot()] = state_of(body);
     }
 
-    fn look_at_contacts(&mut self) {
+    fn read_back_contacts(&mut self) {
         let contacts = &mut self.frame.contacts;
         self.readback.touching_before.clear();
         self.readback.touching_before.extend(contacts.iter().map(|contact| (contact.a, contact.b)));
@@ -172,9 +162,9 @@ impl World {
                 let (a, b) = if one <= other { (one, other) } else { (other, one) };
                 let place = |entity: Entity| match entity {
                     Entity::Floor => DVec3::ZERO,
-                    Entity::Prop(prop) => self.frame.props.get(prop).map_or(DVec3::ZERO, |body| body.position),
+                    Entity::Prop(prop) => self.frame.props.get(prop.slot()).map_or(DVec3::ZERO, |body| body.position),
                     Entity::Part(character, node) => {
-                        self.frame.characters.get(character).map_or(DVec3::ZERO, |one| one.part(node).position)
+                        self.frame.characters.get(character.slot()).map_or(DVec3::ZERO, |one| one.part(node).position)
                     }
                 };
                 contacts.push(Contact { a, b, point: place(b), impulse: DVec3::ZERO, begins: false });
@@ -184,9 +174,10 @@ impl World {
         for contact in contacts.iter_mut() {
             contact.begins = self.readback.touching_before.binary_search(&(contact.a, contact.b)).is_err();
         }
-        for (index, character) in self.frame.characters.iter_mut().enumerate() {
+        for (slot, character) in self.frame.characters.iter_mut().enumerate() {
             character.support.clear();
-            let points = self.readback.standing.iter().filter(|(owner, _)| *owner == index).map(|(_, point)| *point);
+            let points =
+                self.readback.standing.iter().filter(|(owner, _)| owner.slot() == slot).map(|(_, point)| *point);
             character.support.extend(points);
             keep_hull(&mut character.support, &mut self.readback.hull);
         }
@@ -199,21 +190,21 @@ impl World {
 
     /// The largest gap between two parts at their joint, over all characters \[m\].
     pub fn largest_joint_gap_m(&self) -> f64 {
-        let gap = |index: usize| {
-            let parts = &self.frame.characters[index].parts;
-            let body = self.characters[index].body();
+        let gap = |(id, character)| {
+            let (id, body): (CharacterId, _) = (id, Character::body(character));
+            let parts = &self.frame.characters[id.slot()].parts;
             Node::ALL.into_iter().filter_map(move |node| {
                 let parent = &parts[node.parent()?.index()];
                 let joint = parent.position + parent.rotation * body.link(node).offset;
                 Some((joint - parts[node.index()].position).length())
             })
         };
-        (0..self.characters.len()).flat_map(gap).fold(0.0, f64::max)
+        self.characters.iter().flat_map(gap).fold(0.0, f64::max)
     }
 
     /// Kinetic and potential energy of a character, heights from the floor \[J\].
-    pub fn energy_j(&self, character: usize) -> f64 {
-        let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.characters.get(character)) else {
+    pub fn energy_j(&self, character: CharacterId) -> f64 {
+        let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.character(character)) else {
             return 0.0;
         };
         let gravity = -self.engine.gravity.y;
@@ -231,19 +222,19 @@ impl World {
     }
 
     /// Whether all parts of a character sleep.
-    pub fn is_asleep(&self, character: usize) -> bool {
+    pub fn is_asleep(&self, character: CharacterId) -> bool {
         self.characters.get(character).is_some_and(|one| {
             one.bodies.iter().all(|&handle| self.engine.bodies.get(handle).is_some_and(RigidBody::is_sleeping))
         })
     }
 
     /// Moments of inertia of a part about its centre of mass, along its axes, as the world uses them \[kg m²\].
-    pub fn part_inertia(&self, character: usize, node: Node) -> DVec3 {
+    pub fn part_inertia(&self, character: CharacterId, node: Node) -> DVec3 {
         self.body(character).map_or(DVec3::ZERO, |body| ragdoll::part_inertia(body, node))
     }
 
     /// Outboard moment of inertia about a joint, standing \[kg m²\].
-    pub fn outboard_inertia(&self, character: usize, node: Node) -> f64 {
+    pub fn outboard_inertia(&self, character: CharacterId, node: Node) -> f64 {
         self.characters.get(character).map_or_else(
             || ragdoll::outboard_inertias(&sinew_body::humanoid::Body::standard(80.0, 1.7))[node.index()],
             |one| one.outboard[node.index()],

@@ -1,6 +1,6 @@
 //! Descriptions of characters and props for a world.
 
-use crate::{Solid, Surface};
+use crate::{CharacterId, PropId, PropJointId, Solid, Surface};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Pose};
 
@@ -98,6 +98,15 @@ pub enum SpecError {
          0, a range around 0, and a motor only on a hinge or a slider"
     )]
     NoJoint,
+    /// There is no such character, any more or at all.
+    #[error("there is no character {0}: it was removed, or the id is another world's; ask for it again")]
+    StaleCharacter(CharacterId),
+    /// There is no such prop, any more or at all.
+    #[error("there is no prop {0}: it was removed, or the id is another world's; ask for it again")]
+    StaleProp(PropId),
+    /// There is no such joint of props, any more or at all.
+    #[error("there is no joint {0}: it was removed, or the id is another world's; ask for it again")]
+    StalePropJoint(PropJointId),
     /// A mass, size or inertia that is not above 0, or out of range.
     #[error("{0} has no mass or no size, or one that is not a sound number")]
     NoMass(&'static str),

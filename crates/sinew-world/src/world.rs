@@ -6,15 +6,24 @@ use crate::engine::{Engine, tag};
 use crate::prop::Prop;
 use crate::prop_joint::PropJoint;
 use crate::readback::Readback;
-use crate::{CharacterSpec, Drive, Frame, Held, Motion, Pin, PropSpec, SpecError, WorldSettings, ragdoll, sanitize};
+use crate::slots::Slots;
+use crate::{
+    CharacterId, CharacterSpec, Drive, Entity, Frame, Held, Motion, Pin, PropId, PropJointId, PropSpec, SpecError,
+    WorldSettings, ragdoll, sanitize,
+};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node};
 
 /// A rigid-body world.
 ///
-/// Characters and props are addressed by the number that adding them returned, which is also their place in the
-/// [`Frame`]. A number that is none is ignored.
+/// Characters, props and the joints of props are addressed by the ids that adding them returned ([`CharacterId`], [`PropId`],
+/// [`PropJointId`]).
+///
+/// **Stale ids.** An id whose thing was removed, or that never was in this world, is an error ([`SpecError::StaleCharacter`] and its
+/// kin) wherever a `Result` is returned. Calls that are made in every step (drives, pins, forces, motors) return none: with a stale id
+/// they change nothing and are counted by [`World::stale_calls`]. What only reads answers with `None`, or with the neutral value
+/// that it documents.
 ///
 /// ```
 /// use sinew_body::humanoid::{Body, Pose};
@@ -35,13 +44,14 @@ use sinew_body::humanoid::{Body, Node};
 pub struct World {
     pub(crate) settings: WorldSettings,
     pub(crate) engine: Engine,
-    pub(crate) characters: Vec<Character>,
-    pub(crate) props: Vec<Prop>,
+    pub(crate) characters: Slots<CharacterId, Character>,
+    pub(crate) props: Slots<PropId, Prop>,
     pub(crate) attachments: Vec<Attachment>,
     pub(crate) broken_holds: Vec<(Held, f64)>,
-    pub(crate) prop_joints: Vec<PropJoint>,
+    pub(crate) prop_joints: Slots<PropJointId, PropJoint>,
     pub(crate) frame: Frame,
     pub(crate) readback: Readback,
+    pub(crate) stale_calls: u64,
 }
 
 impl World {
@@ -51,13 +61,14 @@ impl World {
         World {
             settings,
             engine: Engine::new(&settings),
-            characters: Vec::new(),
-            props: Vec::new(),
+            characters: Slots::new(),
+            props: Slots::new(),
             attachments: Vec::new(),
             broken_holds: Vec::new(),
-            prop_joints: Vec::new(),
+            prop_joints: Slots::new(),
             frame: Frame::default(),
             readback: Readback::default(),
+            stale_calls: 0,
         }
     }
 
@@ -72,37 +83,38 @@ impl World {
         self.engine.set_threads(threads.clamp(1, 64))
     }
 
-    /// Adds a ragdoll of a body; its joints are limp until they are driven. Returns its number.
+    /// Adds a ragdoll of a body; its joints are limp until they are driven. Returns its id.
     ///
     /// # Errors
     /// A position is not finite, or a part has no mass or size.
-    pub fn add_character(&mut self, spec: CharacterSpec) -> Result<usize, SpecError> {
-        let index = self.characters.len();
-        let character = ragdoll::build(&mut self.engine, &spec, index)?;
-        self.characters.push(character);
-        self.engine.collision_filter.own.push([0; Node::COUNT]);
-        self.read_back_new();
-        Ok(index)
+    pub fn add_character(&mut self, spec: CharacterSpec) -> Result<CharacterId, SpecError> {
+        let character = ragdoll::build(&mut self.engine, &spec, self.characters.next_id())?;
+        let id = self.characters.insert(character);
+        self.engine.collision_filter.add_character(id);
+        self.frame.add_character(id);
+        self.read_back_character(id);
+        Ok(id)
     }
 
-    /// Adds a prop. Returns its number.
+    /// Adds a prop. Returns its id.
     ///
     /// # Errors
     /// A position is not finite, the shape is degenerate, or a dynamic prop is a triangle mesh.
-    pub fn add_prop(&mut self, spec: PropSpec) -> Result<usize, SpecError> {
-        let index = self.props.len();
-        self.props.push(Prop::build(&mut self.engine, spec, index)?);
-        self.read_back_new();
-        Ok(index)
+    pub fn add_prop(&mut self, spec: PropSpec) -> Result<PropId, SpecError> {
+        let prop = Prop::build(&mut self.engine, spec, self.props.next_id())?;
+        let id = self.props.insert(prop);
+        self.frame.add_prop(id);
+        self.read_back_prop(id);
+        Ok(id)
     }
 
     /// One physics step: passes springs and pins to the solver, moves everything, and updates the [`World::frame`].
     pub fn step(&mut self) {
         let step_secs = self.settings.step_secs();
-        for character in &mut self.characters {
+        for character in self.characters.values_mut() {
             character.prepare(&mut self.engine, step_secs);
         }
-        for prop in &mut self.props {
+        for prop in self.props.values_mut() {
             prop.prepare(&mut self.engine, step_secs);
         }
         self.prepare_attachments();
@@ -113,7 +125,16 @@ impl World {
         self.break_prop_joints();
         self.frame.step += 1;
         self.frame.time_secs = self.frame.step as f64 * step_secs;
-        self.look();
+        self.read_back();
+    }
+
+    /// How many calls that change something were made with a stale id, since the world was made. In a program without a fault: 0.
+    pub fn stale_calls(&self) -> u64 {
+        self.stale_calls
+    }
+
+    pub(crate) fn count_stale(&mut self) {
+        self.stale_calls += 1;
     }
 
     /// The state of the world after the last step.
@@ -122,19 +143,19 @@ impl World {
     }
 
     /// A character's body.
-    pub fn body(&self, character: usize) -> Option<&Body> {
+    pub fn body(&self, character: CharacterId) -> Option<&Body> {
         Some(self.characters.get(character)?.body())
     }
 
     /// Outboard moments of inertia about each joint of a character, standing \[kg m²\]; by [`Node::index`].
-    pub fn outboard_inertias(&self, character: usize) -> Option<&[f64; Node::COUNT]> {
+    pub fn outboard_inertias(&self, character: CharacterId) -> Option<&[f64; Node::COUNT]> {
         Some(&self.characters.get(character)?.outboard)
     }
 
     /// Sets the drive of a joint. Takes effect in the next step and stays until it is changed. With numbers that are
     /// not finite, or negative gains, the joint becomes limp.
-    pub fn set_drive(&mut self, character: usize, node: Node, drive: Drive) {
-        let Some(character) = self.characters.get_mut(character) else { return };
+    pub fn set_drive(&mut self, character: CharacterId, node: Node, drive: Drive) {
+        let Some(character) = self.characters.get_mut(character) else { return self.count_stale() };
         let outboard = character.outboard[node.index()];
         let drive = sanitize::drive(drive).unwrap_or(Drive::limp(ragdoll::LIMP_DAMPING * outboard));
         if drive != character.drives[node.index()] {
@@ -144,8 +165,8 @@ impl World {
     }
 
     /// Makes a character limp: removes all drives and pins.
-    pub fn set_limp(&mut self, character: usize) {
-        let Some(character) = self.characters.get_mut(character) else { return };
+    pub fn set_limp(&mut self, character: CharacterId) {
+        let Some(character) = self.characters.get_mut(character) else { return self.count_stale() };
         for at in 0..Node::COUNT {
             character.drives[at] = Drive::limp(ragdoll::LIMP_DAMPING * character.outboard[at]);
             character.pins[at] = None;
@@ -154,8 +175,8 @@ impl World {
     }
 
     /// Sets the pin of a part, or removes it with `None`. Takes effect in the next step.
-    pub fn set_pin(&mut self, character: usize, node: Node, pin: Option<Pin>) {
-        let Some(character) = self.characters.get_mut(character) else { return };
+    pub fn set_pin(&mut self, character: CharacterId, node: Node, pin: Option<Pin>) {
+        let Some(character) = self.characters.get_mut(character) else { return self.count_stale() };
         let pin = pin.and_then(sanitize::pin);
         if pin != character.pins[node.index()] {
             character.pins[node.index()] = pin;
@@ -165,8 +186,8 @@ impl World {
 
     /// Moves a part kinematically to a pose by the end of the next step; it stays kinematic until [`World::set_forces`]
     /// frees it.
-    pub fn move_part(&mut self, character: usize, node: Node, position: DVec3, rotation: DQuat) {
-        let Some(character) = self.characters.get_mut(character) else { return };
+    pub fn move_part(&mut self, character: CharacterId, node: Node, position: DVec3, rotation: DQuat) {
+        let Some(character) = self.characters.get_mut(character) else { return self.count_stale() };
         let Some(rotation) = sanitize::unit(rotation).filter(|_| sanitize::is_place(position)) else { return };
         character.holds[node.index()] = Hold::Told;
         if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
@@ -179,8 +200,8 @@ impl World {
 
     /// Switches physics of a part off (it drifts with a velocity that decays) or on again (Shapiro et al. 2007, section
     /// 4.1).
-    pub fn set_forces(&mut self, character: usize, node: Node, on: bool) {
-        let Some(character) = self.characters.get_mut(character) else { return };
+    pub fn set_forces(&mut self, character: CharacterId, node: Node, on: bool) {
+        let Some(character) = self.characters.get_mut(character) else { return self.count_stale() };
         character.holds[node.index()] = if on { Hold::Free } else { Hold::Drifting };
         let kind = if on { RigidBodyType::Dynamic } else { RigidBodyType::KinematicVelocityBased };
         if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()])
@@ -191,26 +212,24 @@ impl World {
     }
 
     /// A force on a part in the next step only \[N\], at a point of the world or at its centre of mass.
-    pub fn push_part(&mut self, character: usize, node: Node, force: DVec3, point: Option<DVec3>) {
-        if let Some(character) = self.characters.get_mut(character) {
-            let handle = character.bodies[node.index()];
-            character.pushes[0][node.index()] += sanitize::force(force).unwrap_or(DVec3::ZERO);
-            self.push_body(handle, force, point);
-        }
+    pub fn push_part(&mut self, character: CharacterId, node: Node, force: DVec3, point: Option<DVec3>) {
+        let Some(character) = self.characters.get_mut(character) else { return self.count_stale() };
+        let handle = character.bodies[node.index()];
+        character.pushes[0][node.index()] += sanitize::force(force).unwrap_or(DVec3::ZERO);
+        self.push_body(handle, force, point);
     }
 
     /// Sum of the forces of [`World::push_part`] in the last step on each part of a character \[N\]; by
     /// [`Node::index`].
-    pub fn pushes(&self, character: usize) -> Option<&[DVec3; Node::COUNT]> {
+    pub fn pushes(&self, character: CharacterId) -> Option<&[DVec3; Node::COUNT]> {
         Some(&self.characters.get(character)?.pushes[1])
     }
 
     /// A force on a prop in the next step only \[N\], at a point of the world or at its centre of mass.
-    pub fn push_prop(&mut self, prop: usize, force: DVec3, point: Option<DVec3>) {
-        if let Some(prop) = self.props.get(prop) {
-            let handle = prop.handle;
-            self.push_body(handle, force, point);
-        }
+    pub fn push_prop(&mut self, prop: PropId, force: DVec3, point: Option<DVec3>) {
+        let Some(prop) = self.props.get(prop) else { return self.count_stale() };
+        let handle = prop.handle;
+        self.push_body(handle, force, point);
     }
 
     fn push_body(&mut self, handle: RigidBodyHandle, force: DVec3, point: Option<DVec3>) {
@@ -223,11 +242,11 @@ impl World {
     }
 
     fn forget_forces(&mut self) {
-        for character in &mut self.characters {
+        for character in self.characters.values_mut() {
             character.pushes = [[DVec3::ZERO; Node::COUNT], character.pushes[0]];
         }
-        let parts = self.characters.iter().flat_map(|character| character.bodies);
-        let props = self.props.iter().map(|prop| prop.handle);
+        let parts = self.characters.iter().flat_map(|(_, character)| character.bodies);
+        let props = self.props.iter().map(|(_, prop)| prop.handle);
         for handle in parts.chain(props) {
             // Mutable access marks a body as changed in the library.
             let pushed = |body: &RigidBody| body.user_force() != DVec3::ZERO || body.user_torque() != DVec3::ZERO;
@@ -241,15 +260,18 @@ impl World {
     }
 
     /// Factor on gravity for all parts of a character.
-    pub fn set_gravity(&mut self, character: usize, scale: f64) {
+    pub fn set_gravity(&mut self, character: CharacterId, scale: f64) {
+        if self.characters.get(character).is_none() {
+            return self.count_stale();
+        }
         for node in Node::ALL {
             self.set_part_gravity(character, node, scale);
         }
     }
 
     /// Factor on gravity for one part of a character.
-    pub fn set_part_gravity(&mut self, character: usize, node: Node, scale: f64) {
-        let Some(character) = self.characters.get_mut(character) else { return };
+    pub fn set_part_gravity(&mut self, character: CharacterId, node: Node, scale: f64) {
+        let Some(character) = self.characters.get_mut(character) else { return self.count_stale() };
         let Some(scale) = sanitize::gravity_scale(scale) else { return };
         character.gravity_scales[node.index()] = scale;
         if let Some(body) = self.engine.bodies.get_mut(character.bodies[node.index()]) {
@@ -258,12 +280,12 @@ impl World {
     }
 
     /// Factor on gravity for a part of a character, as it is now.
-    pub fn part_gravity(&self, character: usize, node: Node) -> f64 {
+    pub fn part_gravity(&self, character: CharacterId, node: Node) -> f64 {
         self.characters.get(character).map_or(1.0, |one| one.gravity_scales[node.index()])
     }
 
     /// Factor on gravity for a prop, as it is now.
-    pub fn prop_gravity(&self, prop: usize) -> f64 {
+    pub fn prop_gravity(&self, prop: PropId) -> f64 {
         let body = self.props.get(prop).and_then(|prop| self.engine.bodies.get(prop.handle));
         body.map_or(1.0, RigidBody::gravity_scale)
     }
@@ -274,8 +296,8 @@ impl World {
     ///
     /// # Errors
     /// The shape is degenerate.
-    pub fn set_shape(&mut self, character: usize, node: Node, shape: PartShape) -> Result<(), SpecError> {
-        let Some(one) = self.characters.get_mut(character) else { return Ok(()) };
+    pub fn set_shape(&mut self, character: CharacterId, node: Node, shape: PartShape) -> Result<(), SpecError> {
+        let Some(one) = self.characters.get_mut(character) else { return Err(SpecError::StaleCharacter(character)) };
         let own = ragdoll::part_solid(one.body(), node);
         let handle = one.colliders[node.index()];
         let Some(collider) = self.engine.colliders.get_mut(handle) else { return Ok(()) };
@@ -295,7 +317,7 @@ impl World {
             }
             collider.set_shape(form);
             collider.set_position_wrt_parent(solid.placement());
-            collider.user_data = tag(crate::Entity::Part(character, node));
+            collider.user_data = tag(Entity::Part(character, node));
         }
         if let Some(body) = self.engine.bodies.get_mut(one.bodies[node.index()]) {
             body.set_additional_mass_properties(MassProperties::new(link.centre, link.mass_kg, inertia), true);
@@ -305,9 +327,9 @@ impl World {
 
     /// Adds an angular velocity of the whole character about its centre of mass, as if it were one rigid body
     /// \[rad/s\].
-    pub fn spin_character(&mut self, character: usize, spin: DVec3) {
-        let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.characters.get(character)) else {
-            return;
+    pub fn spin_character(&mut self, character: CharacterId, spin: DVec3) {
+        let (Some(one), Some(frame)) = (self.characters.get(character), self.frame.character(character)) else {
+            return self.count_stale();
         };
         let Some(spin) = sanitize::spin(spin) else { return };
         for node in Node::ALL {
@@ -322,8 +344,8 @@ impl World {
 
     /// Gives every part of a character its velocity and angular velocity \[m/s, rad/s\]; by [`Node::index`]. Values
     /// that are not finite are ignored.
-    pub fn set_velocities(&mut self, character: usize, velocities: &[(DVec3, DVec3); Node::COUNT]) {
-        let Some(one) = self.characters.get(character) else { return };
+    pub fn set_velocities(&mut self, character: CharacterId, velocities: &[(DVec3, DVec3); Node::COUNT]) {
+        let Some(one) = self.characters.get(character) else { return self.count_stale() };
         for (handle, (velocity, spin)) in one.bodies.into_iter().zip(velocities) {
             let (Some(velocity), Some(spin)) = (sanitize::velocity(*velocity), sanitize::spin(*spin)) else { continue };
             if let Some(body) = self.engine.bodies.get_mut(handle) {
@@ -335,8 +357,8 @@ impl World {
     }
 
     /// Sets a prop's position or velocity.
-    pub fn place_prop(&mut self, prop: usize, position: Option<DVec3>, velocity: Option<DVec3>) {
-        let Some(prop) = self.props.get_mut(prop) else { return };
+    pub fn place_prop(&mut self, prop: PropId, position: Option<DVec3>, velocity: Option<DVec3>) {
+        let Some(prop) = self.props.get_mut(prop) else { return self.count_stale() };
         if let Some(body) = self.engine.bodies.get_mut(prop.handle) {
             if let Some(position) = position.filter(|&place| sanitize::is_place(place)) {
                 body.set_translation(position, true);
@@ -348,9 +370,9 @@ impl World {
     }
 
     /// Sets the acceleration of a moving (kinematic) prop \[m/s²\]; zero keeps its speed.
-    pub fn accelerate_prop(&mut self, prop: usize, acceleration: DVec3) {
-        if let Some(prop) = self.props.get_mut(prop)
-            && prop.spec.motion == Motion::Moving
+    pub fn accelerate_prop(&mut self, prop: PropId, acceleration: DVec3) {
+        let Some(prop) = self.props.get_mut(prop) else { return self.count_stale() };
+        if prop.spec.motion == Motion::Moving
             && let Some(acceleration) = sanitize::force(acceleration)
         {
             prop.acceleration = acceleration;
@@ -358,9 +380,9 @@ impl World {
     }
 
     /// Factor on gravity for a prop.
-    pub fn set_prop_gravity(&mut self, prop: usize, scale: f64) {
-        if let Some(prop) = self.props.get(prop)
-            && let Some(scale) = sanitize::gravity_scale(scale)
+    pub fn set_prop_gravity(&mut self, prop: PropId, scale: f64) {
+        let Some(prop) = self.props.get(prop) else { return self.count_stale() };
+        if let Some(scale) = sanitize::gravity_scale(scale)
             && let Some(body) = self.engine.bodies.get_mut(prop.handle)
         {
             body.set_gravity_scale(scale, true);

@@ -12,7 +12,7 @@ fn the_pilot_steers_through_every_gate_in_its_order_and_stays_on_the_glider() {
     let glider = prop(&stage, "glider");
     let (mut lowest, mut off): (f64, f64) = (f64::MAX, 0.0);
     until(&mut stage, 20.5, |stage| {
-        let deck = &stage.frame().props[glider];
+        let deck = &stage.frame().props[glider.slot()];
         lowest = lowest.min(deck.centre.y);
         let hips = character(stage, "pilot").part(Node::Hips).position;
         let own = deck.rotation.conjugate() * (hips - deck.position);
@@ -32,7 +32,7 @@ fn the_level_of_the_feet_pitches_the_glider_and_its_force_drives_it_that_way() {
         stage.command(sinew::control::Command::to("pilot", sinew::control::Action::Controller { name: String::new() }));
         stage.command(sinew::control::Command::to("pilot", sinew::control::Action::Pose { name: pose.to_owned() }));
         until(&mut stage, 3.0, |_| ());
-        let deck = stage.frame().props[prop(&stage, "glider")];
+        let deck = stage.frame().props[prop(&stage, "glider").slot()];
         ((deck.rotation * DVec3::Z).y, deck.velocity.z)
     };
     let (ahead, level, back) = (run("fly_ahead"), run("fly"), run("fly_brake"));

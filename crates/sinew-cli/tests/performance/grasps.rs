@@ -188,7 +188,7 @@ fn two_characters_take_each_others_hands_and_one_draws_the_other_along() {
         }
         until(&mut stage, 0.5, |_| ());
         let held: Vec<(usize, String)> =
-            stage.world().held().map(|held| (held.character, stage.cast().name_of(held.object))).collect();
+            stage.world().held().map(|held| (held.character.slot(), stage.cast().name_of(held.object))).collect();
         let own = [(0, "two.leftHand".to_owned()), (1, "one.rightHand".to_owned())];
         assert_eq!(held, if holds { own.to_vec() } else { Vec::new() });
         let before = centre(&stage, "one", Node::RightHand);

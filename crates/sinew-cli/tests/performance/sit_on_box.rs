@@ -4,6 +4,7 @@ use crate::stage::{borne, centre, character, lower_ankle_m, of, prop, shipped, u
 use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::stage::{Scene, Stage};
+use sinew::world::CharacterId;
 use sinew::world::Entity;
 use std::collections::BTreeMap;
 
@@ -72,7 +73,7 @@ fn a_captured_performer_sits_down_on_a_box_and_it_bears_her() {
     );
     let mut stage = of(scene(text("kd", &more)));
     let seated = supports(&mut stage, 3.6);
-    let weight_n = stage.world().body(0).unwrap().mass_kg() * 9.81;
+    let weight_n = stage.world().body(CharacterId::first_in(0)).unwrap().mass_kg() * 9.81;
     assert!(seated.0 > 0.4 * weight_n && seated.0 < 1.15 * weight_n, "the box bears {} N of {weight_n}", seated.0);
     let up = character(&stage, "sitter").part(Node::Chest).rotation * DVec3::Y;
     assert!(up.y > 0.8, "she sits upright: {up}");

@@ -4,6 +4,7 @@ use glam::DVec3;
 use sinew::body::humanoid::Node;
 use sinew::script::{Limits, ScriptHost};
 use sinew::stage::{Effect, Scene, Stage};
+use sinew::world::PropId;
 use sinew::world::{CharacterFrame, Entity};
 use std::path::{Path, PathBuf};
 
@@ -45,16 +46,16 @@ pub fn until(stage: &mut Stage, time_secs: f64, mut look: impl FnMut(&Stage)) {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-pub fn prop(stage: &Stage, name: &str) -> usize {
+pub fn prop(stage: &Stage, name: &str) -> PropId {
     stage.cast().prop(name).unwrap()
 }
 
 pub fn prop_centre(stage: &Stage, name: &str) -> DVec3 {
-    stage.frame().props[prop(stage, name)].centre
+    stage.frame().props[prop(stage, name).slot()].centre
 }
 
 pub fn character<'a>(stage: &'a Stage, name: &str) -> &'a CharacterFrame {
-    &stage.frame().characters[stage.cast().character(name).unwrap()]
+    &stage.frame().characters[stage.cast().character(name).unwrap().slot()]
 }
 
 pub fn centre(stage: &Stage, name: &str, node: Node) -> DVec3 {

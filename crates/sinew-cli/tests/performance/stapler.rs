@@ -17,7 +17,7 @@ fn motion(is_held: bool) -> Motion {
     let mut arms: Vec<f64> = Vec::new();
     let mut chests = Vec::new();
     until(&mut stage, 7.0, |stage| {
-        let state = &stage.frame().props[arm];
+        let state = &stage.frame().props[arm.slot()];
         // Its free end.
         arms.push(state.point(glam::DVec3::new(0.0, 0.0, -0.6)).y);
         chests.push(centre(stage, "tamer", Node::Chest));

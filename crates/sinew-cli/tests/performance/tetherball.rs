@@ -15,7 +15,7 @@ fn the_performer_hits_the_ball_again_and_again_and_it_flies_round_its_pole() {
     let (mut fastest, mut farthest, mut longest, mut highest_ankle): (f64, f64, f64, f64) = (0.0, 0.0, 0.0, 0.0);
     let mut rest = None;
     until(&mut stage, 8.0, |stage| {
-        let state = &stage.frame().props[ball];
+        let state = &stage.frame().props[ball.slot()];
         let touched = stage.frame().touching(Entity::Prop(ball)).any(|contact| {
             contact.impulse.length() > 0.05
                 && (matches!(contact.a, Entity::Part(..)) || matches!(contact.b, Entity::Part(..)))

@@ -43,7 +43,8 @@ fn who_pulls_draws_the_other_closer_at_once_and_both_keep_their_feet() {
 #[test]
 fn the_rope_is_one_rope() {
     let mut stage = shipped("tug-of-war", &[]);
-    let pieces: Vec<usize> = (1..=16).map(|piece| stage.cast().prop(&format!("rope_{piece}")).unwrap()).collect();
+    let pieces: Vec<usize> =
+        (1..=16).map(|piece| stage.cast().prop(&format!("rope_{piece}")).unwrap().slot()).collect();
     let mut gap: f64 = 0.0;
     until(&mut stage, 8.0, |stage| {
         let props = &stage.frame().props;

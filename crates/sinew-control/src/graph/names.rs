@@ -2,7 +2,7 @@
 
 use crate::pose::PartName;
 use sinew_body::humanoid::Node;
-use sinew_world::{Contact, Entity, Frame};
+use sinew_world::{CharacterId, Contact, Entity, Frame};
 use std::collections::BTreeMap;
 
 /// What a name of the scene stands for.
@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 pub enum Touchable {
     /// One thing.
     One(Entity),
-    /// Any part of a character, by its place in [`Frame::characters`].
-    Character(usize),
+    /// Any part of a character.
+    Character(CharacterId),
 }
 
 /// The scene's names: characters, objects, and aliases of parts. Own parts and `ground` need not be among them.
@@ -67,7 +67,7 @@ impl Thing {
     }
 
     /// As the scene of a character sees it.
-    pub(super) fn seen_by(self, own: usize) -> Touchable {
+    pub(super) fn seen_by(self, own: CharacterId) -> Touchable {
         match self {
             Thing::Own(node) => Touchable::One(Entity::Part(own, node)),
             Thing::Whole => Touchable::Character(own),

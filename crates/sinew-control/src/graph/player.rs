@@ -4,7 +4,7 @@ use super::names::contact_between;
 use super::{Graph, Steering};
 use crate::pose::KeyPose;
 use sinew_snapshot::snapshot;
-use sinew_world::{Contact, Entity, Frame};
+use sinew_world::{CharacterId, Contact, Entity, Frame};
 use std::fmt;
 
 /// One character's place in a graph. The graph is handed to each call, so that many players may share it.
@@ -92,7 +92,7 @@ impl GraphPlayer {
         &mut self,
         graph: &Graph,
         frame: &Frame,
-        own: usize,
+        own: CharacterId,
         signals: &[impl AsRef<str>],
     ) -> Option<Transition> {
         self.steps += 1;

@@ -3,7 +3,7 @@
 use super::names::{Thing, Touchable};
 use super::spec::Quantity;
 use glam::DVec3;
-use sinew_world::{BodyState, CharacterFrame, Entity, Frame, margin};
+use sinew_world::{BodyState, CharacterFrame, CharacterId, Entity, Frame, margin};
 
 /// A measured value and its thresholds, names resolved.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,15 +20,15 @@ const IN_THE_AIR_M: f64 = -1000.0;
 
 impl Sensor {
     /// Its value, where it lies beyond the thresholds.
-    pub(super) fn fires(&self, frame: &Frame, own: usize, step_secs: f64) -> Option<f64> {
+    pub(super) fn fires(&self, frame: &Frame, own: CharacterId, step_secs: f64) -> Option<f64> {
         let value = self.value(frame, own, step_secs)?;
         let fires = self.below.is_none_or(|below| value < below) && self.above.is_none_or(|above| value > above);
         (fires && value.is_finite()).then_some(value)
     }
 
     /// `None` for something that is not in the frame.
-    fn value(&self, frame: &Frame, own: usize, step_secs: f64) -> Option<f64> {
-        let character = frame.characters.get(own)?;
+    fn value(&self, frame: &Frame, own: CharacterId, step_secs: f64) -> Option<f64> {
+        let character = frame.character(own)?;
         let of = self.of.seen_by(own);
         Some(match self.is {
             Quantity::HeightM => centre(frame, of)?.y,
@@ -67,23 +67,23 @@ fn tilt_deg(body: &BodyState) -> f64 {
 fn body(frame: &Frame, thing: Touchable) -> Option<&BodyState> {
     match thing {
         Touchable::One(Entity::Floor) => None,
-        Touchable::One(Entity::Prop(index)) => frame.props.get(index),
-        Touchable::One(Entity::Part(index, node)) => Some(frame.characters.get(index)?.part(node)),
+        Touchable::One(Entity::Prop(index)) => frame.prop(index),
+        Touchable::One(Entity::Part(index, node)) => Some(frame.character(index)?.part(node)),
         // Of a whole body, the hips say how it is turned.
-        Touchable::Character(index) => frame.characters.get(index)?.parts.first(),
+        Touchable::Character(index) => frame.character(index)?.parts.first(),
     }
 }
 
 fn centre(frame: &Frame, thing: Touchable) -> Option<DVec3> {
     match thing {
-        Touchable::Character(index) => Some(frame.characters.get(index)?.centre_of_mass),
+        Touchable::Character(index) => Some(frame.character(index)?.centre_of_mass),
         one => body(frame, one).map(|body| body.centre),
     }
 }
 
 fn velocity(frame: &Frame, thing: Touchable) -> Option<DVec3> {
     match thing {
-        Touchable::Character(index) => Some(frame.characters.get(index)?.centre_velocity),
+        Touchable::Character(index) => Some(frame.character(index)?.centre_velocity),
         one => body(frame, one).map(|body| body.velocity),
     }
 }

@@ -4,7 +4,7 @@ use super::spec::{LegSide, TurnAxis};
 use crate::Wanted;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, exp, swing_twist};
-use sinew_world::{CharacterFrame, Frame};
+use sinew_world::{CharacterFrame, CharacterId, Frame};
 
 /// The steering of one state.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,8 +42,8 @@ const MAX_TURN: f64 = 0.35;
 
 impl Steering {
     /// Changes a wanted pose that has been written. Feedback comes first, then parts measured in the world, then the hips.
-    pub fn apply(&self, frame: &Frame, own: usize, target: &mut Wanted) {
-        let Some(character) = frame.characters.get(own) else {
+    pub fn apply(&self, frame: &Frame, own: CharacterId, target: &mut Wanted) {
+        let Some(character) = frame.character(own) else {
             return;
         };
         for rule in &self.feedback {

@@ -6,7 +6,7 @@ use crate::ik::{IkHandles, between};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, log};
 use sinew_snapshot::snapshot;
-use sinew_world::{CharacterFrame, Frame};
+use sinew_world::{CharacterFrame, CharacterId, Frame};
 
 /// Plays key poses: aims at one at a time, and blends to it from whatever was wanted before.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,9 +80,9 @@ impl PosePlayer {
         self.elapsed_secs = 0.0;
     }
 
-    /// Goes on by a step and writes what is wanted at its end. `own` is the character's place in the frame; a frame without it
+    /// Goes on by a step and writes what is wanted at its end. `own` is the character; a frame without it
     /// gets the pose without IK. Root and torques of the target are left alone.
-    pub fn write(&mut self, frame: &Frame, own: usize, body: &Body, step_secs: f64, target: &mut Wanted) {
+    pub fn write(&mut self, frame: &Frame, own: CharacterId, body: &Body, step_secs: f64, target: &mut Wanted) {
         self.elapsed_secs = (self.elapsed_secs + step_secs).min(self.aim.blend_secs);
         let progress = self.progress();
         let share = progress * progress * (3.0 - 2.0 * progress);
@@ -95,7 +95,7 @@ impl PosePlayer {
             joint.gain = self.now.gains[at];
             joint.damping = self.now.dampings[at];
         }
-        if let Some(character) = frame.characters.get(own) {
+        if let Some(character) = frame.character(own) {
             self.ik.write(character, body, step_secs, target);
         }
         let before = self.written.filter(|_| self.aim.follow_velocity && step_secs > 0.0);

@@ -12,7 +12,7 @@ use crate::Wanted;
 use crate::tracker::Gains;
 use sinew_body::humanoid::Body;
 use sinew_snapshot::Snapshot;
-use sinew_world::{CharacterFrame, Frame};
+use sinew_world::{CharacterFrame, CharacterId, Frame};
 
 /// What a reflex knows.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub struct Sense<'a> {
     /// The world after the last step.
     pub frame: &'a Frame,
     /// Which of its characters is meant.
-    pub own: usize,
+    pub own: CharacterId,
     /// Its body.
     pub body: &'a Body,
     /// Its joints' springs, before any factor.
@@ -34,7 +34,7 @@ pub struct Sense<'a> {
 impl Sense<'_> {
     /// The character itself.
     pub fn character(&self) -> &CharacterFrame {
-        &self.frame.characters[self.own]
+        &self.frame.characters[self.own.slot()]
     }
 }
 

@@ -17,7 +17,7 @@ pub use sources::{NO_PERFORMER, Sources};
 use crate::graph::Cause;
 use crate::{Root, Wanted};
 use sinew_body::humanoid::{Body, Pose};
-use sinew_world::{CharacterFrame, Frame};
+use sinew_world::{CharacterFrame, CharacterId, Frame};
 use std::any::Any;
 use std::fmt::Debug;
 
@@ -27,7 +27,7 @@ pub struct Moment<'a> {
     /// The world after the last step.
     pub frame: &'a Frame,
     /// Which of its characters is meant.
-    pub own: usize,
+    pub own: CharacterId,
     /// Its body.
     pub body: &'a Body,
     /// Length of the step \[s\].

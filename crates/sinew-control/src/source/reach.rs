@@ -5,7 +5,7 @@ use crate::{ReachHand, ReachOrder, Root, Wanted};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_reach::{Goal, Obstacle, Reacher, Start, Style, StyleError};
-use sinew_world::{Entity, Frame, Held};
+use sinew_world::{CharacterId, Entity, Frame, Held, PropId};
 
 /// Where a hand is to come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,9 +13,9 @@ pub enum Aimed {
     /// A point, world \[m\].
     Point(DVec3),
     /// A prop's centre and how far from it, world \[m\].
-    Prop(usize, DVec3),
+    Prop(PropId, DVec3),
     /// Where the centre of a prop is to come that the hand holds, world \[m\].
-    Held(usize, DVec3),
+    Held(PropId, DVec3),
 }
 
 /// Left and right.
@@ -42,7 +42,7 @@ pub struct ReachSource {
     ordered_secs: f64,
     /// Counts the character's orders, from 1.
     number: u64,
-    character: usize,
+    character: CharacterId,
     step_secs: f64,
     aimed: [Option<Aimed>; 2],
     phase: Phase,
@@ -99,7 +99,7 @@ impl ReachSource {
     /// When the style is out of range.
     pub fn new(
         body: &Body,
-        character: usize,
+        character: CharacterId,
         style: &Style,
         start: &Start,
         now_secs: f64,
@@ -175,10 +175,10 @@ impl ReachSource {
     pub fn goal(&self, frame: &Frame) -> Goal {
         let at = |side: usize| match self.aimed[side]? {
             Aimed::Point(point) => Some(point),
-            Aimed::Prop(prop, offset) => Some(frame.props.get(prop)?.centre + offset),
+            Aimed::Prop(prop, offset) => Some(frame.prop(prop)?.centre + offset),
             Aimed::Held(prop, point) => {
-                let hand = frame.characters.get(self.character)?.part(HANDS[side]);
-                Some(point + (hand.centre - frame.props.get(prop)?.centre))
+                let hand = frame.character(self.character)?.part(HANDS[side]);
+                Some(point + (hand.centre - frame.prop(prop)?.centre))
             }
         };
         Goal { left: at(0), right: at(1) }
@@ -195,7 +195,7 @@ impl ReachSource {
     }
 
     /// Whether a hand reaches for a prop now.
-    pub fn is_aimed(&self, side: usize, prop: usize) -> bool {
+    pub fn is_aimed(&self, side: usize, prop: PropId) -> bool {
         self.is_reaching() && matches!(self.aimed[side], Some(Aimed::Prop(aimed, _)) if aimed == prop)
     }
 
@@ -257,7 +257,7 @@ impl ReachSource {
     /// The hands should be there: says whether they are, and grasps. One that was bumped arrives later.
     fn arrive(&mut self, frame: &Frame) -> Option<ReachArrival> {
         let is_late = std::mem::replace(&mut self.has_arrived, true);
-        let character = frame.characters.get(self.character)?;
+        let character = frame.character(self.character)?;
         let goal = self.goal(frame);
         let is_reachable = self.reacher.outcome().reason.is_none();
         let mut arrival = ReachArrival::default();

@@ -4,7 +4,7 @@ use super::reach::ReachStep;
 use super::{KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, handed_over};
 use crate::{FreeRoot, Root, Wanted};
 use sinew_body::humanoid::{Body, Pose};
-use sinew_world::{CharacterFrame, Frame};
+use sinew_world::{CharacterFrame, CharacterId, Frame};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -253,7 +253,7 @@ impl Sources {
 
     /// Goes on by a step, everything: what does not act now may act again. What is to be told is put behind `events`.
     /// `own` is the character's place in the frame; without the layer of key poses, graphs stay in their states.
-    pub fn advance(&mut self, frame: &Frame, own: usize, has_poses_layer: bool, events: &mut Vec<SourceEvent>) {
+    pub fn advance(&mut self, frame: &Frame, own: CharacterId, has_poses_layer: bool, events: &mut Vec<SourceEvent>) {
         let now_secs = frame.time_secs;
         let understudy = self.performer.as_ref().filter(|performer| performer.has_understudy_on());
         let understudy = understudy.map(|_| self.pose_at(now_secs));

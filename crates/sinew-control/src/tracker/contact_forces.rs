@@ -3,7 +3,7 @@
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_response::PointForce;
-use sinew_world::{Entity, Frame, World};
+use sinew_world::{CharacterId, Entity, Frame, PropId, World};
 
 /// Impulses on the parts of a character since the motion frame began.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +28,7 @@ sinew_snapshot::snapshot!(Touch { impulse, size, moment });
 impl ContactForces {
     /// Adds what the world's last step did to a character. Floor, ground prop, own parts and what the character holds do
     /// not count: the wanted motion stands on the ones and carries the others already.
-    pub(crate) fn add(&mut self, world: &World, character: usize, ground: Option<usize>) {
+    pub(crate) fn add(&mut self, world: &World, character: CharacterId, ground: Option<PropId>) {
         let frame = world.frame();
         let counts = |other: Entity| match other {
             Entity::Floor => false,
@@ -50,8 +50,8 @@ impl ContactForces {
         }
     }
 
-    fn touch(&mut self, frame: &Frame, character: usize, node: Node, point: DVec3, impulse: DVec3) {
-        let Some(part) = frame.characters.get(character).map(|one| one.part(node)) else { return };
+    fn touch(&mut self, frame: &Frame, character: CharacterId, node: Node, point: DVec3, impulse: DVec3) {
+        let Some(part) = frame.character(character).map(|one| one.part(node)) else { return };
         let size = impulse.length();
         if size > 0.0 && impulse.is_finite() && point.is_finite() {
             let touch = &mut self.parts[node.index()];

@@ -3,7 +3,7 @@
 use super::instant::Instant;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
-use sinew_world::{Drive, Pin, World};
+use sinew_world::{CharacterId, Drive, Pin, World};
 
 /// How firmly the parts of a body are held to their places.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +56,7 @@ impl Hold {
     }
 
     /// Sets the pins of a character so that it is in `next` at the end of the world's next step.
-    pub(crate) fn carry_to(&mut self, next: &Pose, ground: &GroundMotion, world: &mut World, character: usize) {
+    pub(crate) fn carry_to(&mut self, next: &Pose, ground: &GroundMotion, world: &mut World, character: CharacterId) {
         let step_secs = world.settings().step_secs();
         let Some(body) = world.body(character) else { return };
         let next = Instant::of(body, next);

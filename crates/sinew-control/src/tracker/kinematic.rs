@@ -5,7 +5,7 @@ use super::pose_interpolator::PoseInterpolator;
 use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
 use crate::Wanted;
 use sinew_body::humanoid::{Node, Pose};
-use sinew_world::World;
+use sinew_world::{CharacterId, World};
 
 /// Moves every part to the wanted pose; what it meets is pushed with infinite mass.
 ///
@@ -44,7 +44,7 @@ impl KinematicTracker {
     }
 
     /// Says where every part is to be at the end of the world's next step.
-    pub fn physics_step(&mut self, world: &mut World, character: usize) {
+    pub fn physics_step(&mut self, world: &mut World, character: CharacterId) {
         if self.clock.is_due() {
             self.clock.begin_frame();
             self.interpolator.next(&self.wanted);
@@ -74,9 +74,9 @@ impl Tracker for KinematicTracker {
         if self.wants_pose() { Wants::Pose } else { Wants::Nothing }
     }
 
-    fn take_over(&mut self, _: &TakeOver, _: &mut World, _: usize) {}
+    fn take_over(&mut self, _: &TakeOver, _: &mut World, _: CharacterId) {}
 
-    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize) {
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId) {
         if self.wants_pose() {
             self.wanted(&wanted.pose);
         }
@@ -84,7 +84,7 @@ impl Tracker for KinematicTracker {
     }
 
     /// The parts go on as they move now.
-    fn release(&mut self, world: &mut World, character: usize) {
+    fn release(&mut self, world: &mut World, character: CharacterId) {
         for node in Node::ALL {
             world.set_forces(character, node, true);
         }

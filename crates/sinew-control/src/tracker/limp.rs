@@ -2,7 +2,7 @@
 
 use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
 use crate::Wanted;
-use sinew_world::World;
+use sinew_world::{CharacterId, World};
 
 /// The tracker `none`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,11 +26,11 @@ impl Tracker for Limp {
         Wants::Nothing
     }
 
-    fn take_over(&mut self, _: &TakeOver, world: &mut World, character: usize) {
+    fn take_over(&mut self, _: &TakeOver, world: &mut World, character: CharacterId) {
         world.set_limp(character);
     }
 
-    fn follow(&mut self, _: &Wanted, _: &mut World, _: usize) {}
+    fn follow(&mut self, _: &Wanted, _: &mut World, _: CharacterId) {}
 
-    fn release(&mut self, _: &mut World, _: usize) {}
+    fn release(&mut self, _: &mut World, _: CharacterId) {}
 }

@@ -25,7 +25,7 @@ pub use response::ResponseTracker;
 
 use crate::Wanted;
 use sinew_body::humanoid::Pose;
-use sinew_world::World;
+use sinew_world::{CharacterId, World};
 use std::any::Any;
 use std::fmt::Debug;
 
@@ -72,7 +72,7 @@ pub struct TakeOver<'a> {
 ///     tracker.follow(&wanted, &mut world, character);
 ///     world.step();
 /// }
-/// assert!((world.frame().characters[character].parts[0].position.x - 0.6).abs() < 1e-3);
+/// assert!((world.frame().characters[character.slot()].parts[0].position.x - 0.6).abs() < 1e-3);
 /// # Ok::<(), sinew_world::SpecError>(())
 /// ```
 pub trait Tracker: Any + Debug + Send + Sync {
@@ -91,11 +91,11 @@ pub trait Tracker: Any + Debug + Send + Sync {
     }
 
     /// The body is its own from now on, after another tracker's [`release`](Tracker::release).
-    fn take_over(&mut self, start: &TakeOver, world: &mut World, character: usize);
+    fn take_over(&mut self, start: &TakeOver, world: &mut World, character: CharacterId);
 
     /// Sets forces, springs or places for the world's next step.
-    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize);
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId);
 
     /// Hands the body back to physics.
-    fn release(&mut self, world: &mut World, character: usize);
+    fn release(&mut self, world: &mut World, character: CharacterId);
 }

@@ -7,7 +7,7 @@
 use super::{Gains, Honours, JointGain, TakeOver, Tracker, TrackerKind, Wants};
 use crate::Wanted;
 use sinew_body::humanoid::{Body, Node};
-use sinew_world::{Drive, World, outboard_inertias};
+use sinew_world::{CharacterId, Drive, World, outboard_inertias};
 
 /// Follows a target with joint springs; the root is not actuated.
 #[derive(Clone, Debug)]
@@ -50,9 +50,9 @@ impl Tracker for PdTracker {
         Wants::Joints
     }
 
-    fn take_over(&mut self, _: &TakeOver, _: &mut World, _: usize) {}
+    fn take_over(&mut self, _: &TakeOver, _: &mut World, _: CharacterId) {}
 
-    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize) {
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId) {
         for node in Node::ALL.into_iter().skip(1) {
             let at = node.index();
             let wanted = &wanted.joints[at];
@@ -74,7 +74,7 @@ impl Tracker for PdTracker {
     }
 
     /// The springs stay as they are until another tracker changes them.
-    fn release(&mut self, _: &mut World, _: usize) {}
+    fn release(&mut self, _: &mut World, _: CharacterId) {}
 }
 
 /// Share of a joint's damping that is left when its gain is nothing: flesh \[1\].

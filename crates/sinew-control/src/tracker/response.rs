@@ -15,7 +15,7 @@ use crate::Wanted;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_response::{Basis, PointForce, Response, Settings};
-use sinew_world::World;
+use sinew_world::{CharacterId, PropId, World};
 
 /// Follows wanted poses with the response of [`sinew_response`], in a world.
 ///
@@ -45,7 +45,7 @@ sinew_snapshot::snapshot!(Platform { prop, origin, step_velocity, frame_velocity
 /// A moving prop that the character stands on.
 #[derive(Clone, Copy, Debug, Default)]
 struct Platform {
-    prop: usize,
+    prop: PropId,
     /// Where it was when the character stepped on it \[m\].
     origin: DVec3,
     /// Its velocity one step of physics ago, and one motion frame ago \[m/s\].
@@ -100,9 +100,9 @@ impl ResponseTracker {
     }
 
     /// Stands on a prop that moves, from now on, or on ground at rest again.
-    pub fn stand_on(&mut self, world: &World, prop: Option<usize>) {
+    pub fn stand_on(&mut self, world: &World, prop: Option<PropId>) {
         self.platform = prop.and_then(|prop| {
-            let state = world.frame().props.get(prop)?;
+            let state = world.frame().prop(prop)?;
             let (origin, velocity) = (state.position, state.velocity);
             Some(Platform { prop, origin, step_velocity: velocity, frame_velocity: velocity })
         });
@@ -121,12 +121,12 @@ impl ResponseTracker {
 
     /// Keeps trunk, head and arms clear of these props, by their numbers, as far as the motion allows; where it does not,
     /// they touch. Legs and hips go where the motion takes them.
-    pub fn avoid(&mut self, props: &[usize]) {
+    pub fn avoid(&mut self, props: &[PropId]) {
         self.tasks.avoid(props);
     }
 
     /// Reads the contacts of the world's last step, and says where every part is to be held in its next one.
-    pub fn physics_step(&mut self, world: &mut World, character: usize) {
+    pub fn physics_step(&mut self, world: &mut World, character: CharacterId) {
         self.felt.add(world, character, self.platform.map(|platform| platform.prop));
         let step_secs = world.settings().step_secs();
         let ground = self.ground(world, step_secs);
@@ -155,7 +155,7 @@ impl ResponseTracker {
 
     fn ground(&mut self, world: &World, step_secs: f64) -> GroundMotion {
         let Some(platform) = &mut self.platform else { return GroundMotion::default() };
-        let Some(state) = world.frame().props.get(platform.prop) else { return GroundMotion::default() };
+        let Some(state) = world.frame().prop(platform.prop) else { return GroundMotion::default() };
         let acceleration = (state.velocity - platform.step_velocity) / step_secs;
         platform.step_velocity = state.velocity;
         GroundMotion { shift: state.position - platform.origin, velocity: state.velocity, acceleration }
@@ -199,21 +199,21 @@ impl Tracker for ResponseTracker {
     }
 
     /// Goes on in the middle of a motion that is known beforehand. What is kept upright is so from there.
-    fn take_over(&mut self, start: &TakeOver, world: &mut World, _: usize) {
+    fn take_over(&mut self, start: &TakeOver, world: &mut World, _: CharacterId) {
         let Some(motion) = start.motion else { return };
         let now_secs = world.frame().time_secs;
         self.restart(&motion(now_secs - self.clock.time_step_secs()), &motion(now_secs));
         self.keep_upright(self.upright().map(|(node, _)| node));
     }
 
-    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize) {
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId) {
         if self.wants_pose() {
             self.wanted(&wanted.pose);
         }
         self.physics_step(world, character);
     }
 
-    fn release(&mut self, world: &mut World, character: usize) {
+    fn release(&mut self, world: &mut World, character: CharacterId) {
         world.set_limp(character);
     }
 }

@@ -3,14 +3,14 @@
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, UPPER_NODES};
 use sinew_response::Task;
-use sinew_world::World;
+use sinew_world::{PropId, World};
 
 /// The tasks of a tracker, made anew in each motion frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Tasks {
     /// A part, and the axis of it that is to point up.
     upright: Option<(Node, DVec3)>,
-    obstacles: Vec<usize>,
+    obstacles: Vec<PropId>,
     list: Vec<Task>,
 }
 
@@ -52,7 +52,7 @@ impl Tasks {
         self.upright
     }
 
-    pub(crate) fn avoid(&mut self, props: &[usize]) {
+    pub(crate) fn avoid(&mut self, props: &[PropId]) {
         self.obstacles.clear();
         self.obstacles.extend_from_slice(props);
     }

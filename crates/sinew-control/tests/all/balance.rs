@@ -149,7 +149,7 @@ fn it_stands_on_a_platform_that_starts_and_glides_on() {
     let me = &standing.world.frame().characters[0];
     assert!(me.centre_of_mass.y > 1.1, "{}", me.centre_of_mass);
     // It goes along at 0.28 m/s.
-    let gliding = me.centre_velocity - standing.world.frame().props[platform].velocity;
+    let gliding = me.centre_velocity - standing.world.frame().props[platform.slot()].velocity;
     assert!(gliding.length() < 0.01, "{gliding}");
 }
 

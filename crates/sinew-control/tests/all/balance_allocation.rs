@@ -4,6 +4,7 @@ use crate::pushed::{Place, Push, STRIDE, Standing};
 use sinew_body::humanoid::Body;
 use sinew_control::reflex::{BalanceSettings, Reflex, Sense};
 use sinew_testkit::allocations;
+use sinew_world::CharacterId;
 #[test]
 fn a_step_of_the_balance_reflex_allocates_nothing() {
     let mut standing = Standing::new(Body::standard(80.0, 1.7), STRIDE, BalanceSettings::default());
@@ -13,7 +14,7 @@ fn a_step_of_the_balance_reflex_allocates_nothing() {
         standing.step(Some(&push));
         let sense = Sense {
             frame: standing.world.frame(),
-            own: 0,
+            own: CharacterId::first_in(0),
             body: &standing.body,
             gains: standing.tracker.gains(),
             step_secs: 1.0 / 240.0,

@@ -7,7 +7,7 @@ use sinew_body::humanoid::{Body, Node, Pose, exp, log};
 use sinew_control::Wanted;
 use sinew_control::graph::{Cause, Graph, GraphError, GraphPlayer, Touchable};
 use sinew_control::pose::{read_poses, resolve_poses, rotation_of};
-use sinew_world::{BodyState, CharacterFrame, Contact, Entity, Frame};
+use sinew_world::{BodyState, CharacterFrame, CharacterId, Contact, Entity, Frame, PropId};
 use std::collections::BTreeMap;
 
 const STEP_SECS: f64 = 1.0 / 240.0;
@@ -15,9 +15,9 @@ const NO_SIGNALS: [&str; 0] = [];
 
 fn names() -> BTreeMap<String, Touchable> {
     BTreeMap::from([
-        ("ball".to_owned(), Touchable::One(Entity::Prop(0))),
-        ("rival".to_owned(), Touchable::Character(1)),
-        ("RightArm".to_owned(), Touchable::One(Entity::Part(0, Node::RightHand))),
+        ("ball".to_owned(), Touchable::One(Entity::Prop(PropId::first_in(0)))),
+        ("rival".to_owned(), Touchable::Character(CharacterId::first_in(1))),
+        ("RightArm".to_owned(), Touchable::One(Entity::Part(CharacterId::first_in(0), Node::RightHand))),
     ])
 }
 
@@ -55,11 +55,8 @@ fn character(hips: DVec3, facing_rad: f64) -> CharacterFrame {
 
 /// Two characters and a ball.
 fn frame() -> Frame {
-    Frame {
-        characters: vec![character(DVec3::Y, 0.0), character(DVec3::new(0.0, 1.0, 2.0), 0.0)],
-        props: vec![BodyState { centre: DVec3::new(0.0, 1.0, 1.0), ..BodyState::REST }],
-        ..Frame::default()
-    }
+    let characters = vec![character(DVec3::Y, 0.0), character(DVec3::new(0.0, 1.0, 2.0), 0.0)];
+    Frame::of(characters, vec![BodyState { centre: DVec3::new(0.0, 1.0, 1.0), ..BodyState::REST }])
 }
 
 fn touch(a: Entity, b: Entity) -> Contact {
@@ -76,7 +73,7 @@ fn a_timer_fires_at_its_step_and_does_not_drift() {
     let mut player = GraphPlayer::new(&graph, STEP_SECS);
     let mut fired = Vec::new();
     for step in 1..=960_000u64 {
-        if let Some(transition) = player.step(&graph, &frame_once(), 0, &NO_SIGNALS) {
+        if let Some(transition) = player.step(&graph, &frame_once(), CharacterId::first_in(0), &NO_SIGNALS) {
             assert_eq!(transition.cause, Cause::Timer);
             fired.push(step);
         }
@@ -94,15 +91,44 @@ fn frame_once() -> Frame {
 #[test]
 fn a_touch_fires_only_for_the_pair_that_is_named_and_tells_the_contact() {
     for (pair, contact, fires) in [
-        ("'rightFoot', 'ground'", touch(Entity::Floor, Entity::Part(0, Node::RightFoot)), true),
-        ("'ground', 'rightFoot'", touch(Entity::Floor, Entity::Part(0, Node::RightFoot)), true),
-        ("'rightFoot', 'ground'", touch(Entity::Floor, Entity::Part(0, Node::LeftFoot)), false),
-        ("'rightFoot', 'ground'", touch(Entity::Floor, Entity::Part(1, Node::RightFoot)), false),
-        ("'self', 'ball'", touch(Entity::Prop(0), Entity::Part(0, Node::Head)), true),
-        ("'self', 'ball'", touch(Entity::Prop(1), Entity::Part(0, Node::Head)), false),
-        ("'RightArm', 'rival'", touch(Entity::Part(0, Node::RightHand), Entity::Part(1, Node::Chest)), true),
-        ("'rightHand', 'rival.head'", touch(Entity::Part(0, Node::RightHand), Entity::Part(1, Node::Head)), true),
-        ("'rightHand', 'rival.head'", touch(Entity::Part(0, Node::RightHand), Entity::Part(1, Node::Neck)), false),
+        ("'rightFoot', 'ground'", touch(Entity::Floor, Entity::Part(CharacterId::first_in(0), Node::RightFoot)), true),
+        ("'ground', 'rightFoot'", touch(Entity::Floor, Entity::Part(CharacterId::first_in(0), Node::RightFoot)), true),
+        ("'rightFoot', 'ground'", touch(Entity::Floor, Entity::Part(CharacterId::first_in(0), Node::LeftFoot)), false),
+        ("'rightFoot', 'ground'", touch(Entity::Floor, Entity::Part(CharacterId::first_in(1), Node::RightFoot)), false),
+        (
+            "'self', 'ball'",
+            touch(Entity::Prop(PropId::first_in(0)), Entity::Part(CharacterId::first_in(0), Node::Head)),
+            true,
+        ),
+        (
+            "'self', 'ball'",
+            touch(Entity::Prop(PropId::first_in(1)), Entity::Part(CharacterId::first_in(0), Node::Head)),
+            false,
+        ),
+        (
+            "'RightArm', 'rival'",
+            touch(
+                Entity::Part(CharacterId::first_in(0), Node::RightHand),
+                Entity::Part(CharacterId::first_in(1), Node::Chest),
+            ),
+            true,
+        ),
+        (
+            "'rightHand', 'rival.head'",
+            touch(
+                Entity::Part(CharacterId::first_in(0), Node::RightHand),
+                Entity::Part(CharacterId::first_in(1), Node::Head),
+            ),
+            true,
+        ),
+        (
+            "'rightHand', 'rival.head'",
+            touch(
+                Entity::Part(CharacterId::first_in(0), Node::RightHand),
+                Entity::Part(CharacterId::first_in(1), Node::Neck),
+            ),
+            false,
+        ),
     ] {
         let graph = graph(&format!(
             "[graphs.g.states.a]\npose = 'stand'\nto = [{{ state = 'b', touching = [{pair}] }}]\n\
@@ -111,7 +137,7 @@ fn a_touch_fires_only_for_the_pair_that_is_named_and_tells_the_contact() {
         .unwrap();
         let mut player = GraphPlayer::new(&graph, STEP_SECS);
         let frame = Frame { contacts: vec![contact], ..frame() };
-        let transition = player.step(&graph, &frame, 0, &NO_SIGNALS);
+        let transition = player.step(&graph, &frame, CharacterId::first_in(0), &NO_SIGNALS);
         assert_eq!(transition.map(|t| t.cause), fires.then_some(Cause::Touch(contact)), "{pair}");
         assert_eq!(player.state_name(&graph), if fires { "b" } else { "a" });
     }
@@ -127,7 +153,7 @@ fn sensors_measure_what_they_say() {
     own.centre_velocity = DVec3::new(0.2, -0.4, 0.7);
     own.facing = DVec3::X;
     own.support = [(-0.1, -0.1), (-0.1, 0.2), (0.1, 0.2), (0.1, -0.1)].map(|(x, z)| DVec3::new(x, 0.0, z)).to_vec();
-    let mut pushing = touch(Entity::Floor, Entity::Part(0, Node::LeftFoot));
+    let mut pushing = touch(Entity::Floor, Entity::Part(CharacterId::first_in(0), Node::LeftFoot));
     pushing.impulse = DVec3::Y * 2.0;
     frame.contacts = vec![pushing, pushing];
     let head = frame.characters[0].part(Node::Head).centre.y;
@@ -149,7 +175,9 @@ fn sensors_measure_what_they_say() {
                 "[graphs.g.states.a]\npose = 'stand'\nto = [{{ state = 'a', sensor = {{ {sensor}, {threshold} }} }}]"
             ))
             .unwrap_or_else(|error| panic!("{sensor}: {error}"));
-            GraphPlayer::new(&graph, STEP_SECS).step(&graph, &frame, 0, &NO_SIGNALS).map(|transition| transition.cause)
+            GraphPlayer::new(&graph, STEP_SECS)
+                .step(&graph, &frame, CharacterId::first_in(0), &NO_SIGNALS)
+                .map(|transition| transition.cause)
         };
         let Some(Cause::Sensor(read)) = fires(format!("below = {:?}", value + 1e-6)) else { panic!("{sensor}") };
         assert!((read - value).abs() < 1e-9, "{sensor}: {read}");
@@ -169,11 +197,11 @@ fn all_conditions_must_hold_the_first_way_wins_and_one_transition_fires_a_step()
          [graphs.g.states.c]\npose = 'bent'",
     )
     .unwrap();
-    let contact = touch(Entity::Floor, Entity::Part(0, Node::RightFoot));
+    let contact = touch(Entity::Floor, Entity::Part(CharacterId::first_in(0), Node::RightFoot));
     let on_ground = Frame { contacts: vec![contact], ..frame() };
     let mut player = GraphPlayer::new(&graph, STEP_SECS);
     for step in 1..=24 {
-        let transition = player.step(&graph, &on_ground, 0, &NO_SIGNALS);
+        let transition = player.step(&graph, &on_ground, CharacterId::first_in(0), &NO_SIGNALS);
         assert_eq!(transition.is_some(), step == 24, "{step}");
         if let Some(transition) = transition {
             assert_eq!(transition.names(&graph), ("a", "b"));
@@ -185,9 +213,15 @@ fn all_conditions_must_hold_the_first_way_wins_and_one_transition_fires_a_step()
         }
     }
     // A state with an open way lasts one step.
-    assert_eq!(player.step(&graph, &on_ground, 0, &NO_SIGNALS).unwrap().names(&graph), ("b", "a"));
-    assert_eq!(player.step(&graph, &on_ground, 0, &["stop"]), None);
-    assert_eq!(player.step(&graph, &on_ground, 0, &["stop", "go"]).unwrap().cause, Cause::Signal);
+    assert_eq!(
+        player.step(&graph, &on_ground, CharacterId::first_in(0), &NO_SIGNALS).unwrap().names(&graph),
+        ("b", "a")
+    );
+    assert_eq!(player.step(&graph, &on_ground, CharacterId::first_in(0), &["stop"]), None);
+    assert_eq!(
+        player.step(&graph, &on_ground, CharacterId::first_in(0), &["stop", "go"]).unwrap().cause,
+        Cause::Signal
+    );
     assert_eq!(player.state_name(&graph), "c");
     assert!(player.jump(&graph, "a") && !player.jump(&graph, "nowhere"));
     assert_eq!((player.state_name(&graph), player.lasted_secs()), ("a", 0.0));
@@ -235,9 +269,9 @@ fn feedback_turns_the_joint_in_proportion_to_the_centre_of_mass() {
     let foot = own.part(Node::LeftFoot).position;
     own.centre_of_mass = foot + DVec3::new(0.3, 0.9, 0.1);
     own.centre_velocity = DVec3::new(0.5, 0.0, 0.0);
-    let frame = Frame { characters: vec![own], ..Frame::default() };
+    let frame = Frame::of(vec![own], Vec::new());
     let mut target = Wanted::STANDING;
-    GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, 0, &mut target);
+    GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, CharacterId::first_in(0), &mut target);
     let turn = |node| log(target.joint(node).rotation);
     assert!((turn(Node::RightUpperLeg) - DVec3::X * (-0.5 * 0.3 - 0.2 * 0.5)).length() < 1e-12);
     assert!((turn(Node::LeftUpperLeg) - DVec3::Z * (2.0 * -0.1)).length() < 1e-12);
@@ -257,13 +291,13 @@ fn world_hips_and_upright_parts_are_measured_in_the_world() {
         part.rotation = tipped;
     }
     own.facing = yaw * DVec3::Z;
-    let frame = Frame { characters: vec![own], ..Frame::default() };
+    let frame = Frame::of(vec![own], Vec::new());
     let player = GraphPlayer::new(&graph, STEP_SECS);
     let mut target = Wanted::STANDING;
     for node in Node::ALL {
         target.joint_mut(node).rotation = player.pose(&graph).rotations[node.index()];
     }
-    player.steering(&graph).apply(&frame, 0, &mut target);
+    player.steering(&graph).apply(&frame, CharacterId::first_in(0), &mut target);
     let apart = |a: DQuat, b: DQuat| log(a.conjugate() * b).length();
     // Where the parts would be in the world, if the joints did as they are told and the hips stayed.
     let chest = tipped * target.joint(Node::Chest).rotation;
@@ -283,9 +317,9 @@ fn an_upright_foot_is_level_whatever_its_leg_does_and_faces_as_its_shank_does() 
     let shank = yaw * rotation_of([50.0, 0.0, 0.0]) * rotation_of([0.0, 0.0, 10.0]);
     own.parts[Node::RightLowerLeg.index()].rotation = shank;
     own.parts[Node::RightLowerLeg.index()].angular_velocity = DVec3::new(3.0, 2.0, -1.0);
-    let frame = Frame { characters: vec![own], ..Frame::default() };
+    let frame = Frame::of(vec![own], Vec::new());
     let mut target = Wanted::STANDING;
-    GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, 0, &mut target);
+    GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, CharacterId::first_in(0), &mut target);
     let joint = target.joint(Node::RightFoot);
     let foot = shank * joint.rotation;
     assert!((foot * DVec3::Y - DVec3::Y).length() < 1e-12);
@@ -306,9 +340,9 @@ fn a_heading_turns_the_hips_the_short_way_and_not_all_at_once() {
         for part in &mut own.parts {
             part.rotation = facing;
         }
-        let frame = Frame { characters: vec![own], ..Frame::default() };
+        let frame = Frame::of(vec![own], Vec::new());
         let mut target = Wanted::STANDING;
-        GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, 0, &mut target);
+        GraphPlayer::new(&graph, STEP_SECS).steering(&graph).apply(&frame, CharacterId::first_in(0), &mut target);
         // The thigh that carries stays, the hips come to their heading.
         let hips = facing * target.joint(Node::LeftUpperLeg).rotation.conjugate();
         let turned = log(facing.conjugate() * hips);

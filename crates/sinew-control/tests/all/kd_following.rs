@@ -5,6 +5,7 @@ use crate::performer;
 use crate::performer::{Act, BASKETBALL, BOXING, Following, Performer, RUNS, WALKS};
 use sinew_control::tracker::{KdDamping, KdPreset, KdSettings};
 use sinew_testkit::mocap;
+use sinew_world::CharacterId;
 
 fn fed(performer: &Performer, feed_forward: bool) -> Following {
     Following::of(performer, KdSettings { feed_forward, ..KdSettings::default() })
@@ -94,7 +95,7 @@ fn a_motion_that_jumps_is_met_without_a_jump_of_the_body() {
             if act.tracker.wants_pose() {
                 act.tracker.wanted(&wanted);
             }
-            act.tracker.physics_step(&mut act.world, 0);
+            act.tracker.physics_step(&mut act.world, CharacterId::first_in(0));
             act.world.step();
             let parts = &act.world.frame().characters[0].parts;
             fastest = parts.iter().map(|part| part.velocity.length()).fold(fastest, f64::max);

@@ -5,6 +5,7 @@ use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::tracker::{KdPreset, KdSettings};
 use sinew_testkit::mocap;
+use sinew_world::CharacterId;
 
 /// How a body moves from now on.
 #[derive(Debug, Default)]
@@ -60,7 +61,7 @@ fn falls(performer: &Performer, off_secs: f64, fade_secs: f64, then_secs: f64) -
     for step in 0..steps(off_secs) {
         // A body whose joints are held stands for a while like a statue.
         if step < steps(0.3) {
-            act.world.push_part(0, Node::Chest, DVec3::Z * 60.0, None);
+            act.world.push_part(CharacterId::first_in(0), Node::Chest, DVec3::Z * 60.0, None);
         }
         act.step();
     }
@@ -104,7 +105,7 @@ fn gains_that_hold_nothing_and_come_back_do_not_pop_either() {
     act.tracker.set_gains(KdPreset::Balloon.gains(), 0.3);
     for step in 0..steps(3.0) {
         if step < steps(1.0) {
-            act.world.push_part(0, Node::Chest, DVec3::Z * 20.0, None);
+            act.world.push_part(CharacterId::first_in(0), Node::Chest, DVec3::Z * 20.0, None);
         }
         act.step();
     }
@@ -123,7 +124,7 @@ fn weights_change_what_an_arm_carries_and_fade() {
     let push = |act: &mut Act| {
         let mut most: f64 = 0.0;
         for _ in 0..360 {
-            act.world.push_part(0, Node::LeftHand, DVec3::Z * 10.0, None);
+            act.world.push_part(CharacterId::first_in(0), Node::LeftHand, DVec3::Z * 10.0, None);
             act.step();
             let hand = act.world.frame().characters[0].part(Node::LeftHand).centre;
             most = most.max((hand - performer.centres(performer.pose(0))[Node::LeftHand.index()]).length());

@@ -7,6 +7,7 @@ use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::tracker::KdSettings;
 use sinew_testkit::mocap;
+use sinew_world::CharacterId;
 
 const UPPER_BODY: [Node; 6] =
     [Node::Chest, Node::Head, Node::RightShoulder, Node::LeftUpperArm, Node::RightLowerArm, Node::LeftHand];
@@ -62,7 +63,7 @@ fn a_load_that_grows_is_held_as_firmly_as_without_yielding() {
         for step in 0..720 {
             // Up to 100 N within two seconds.
             let force = DVec3::Z * (f64::from(step) / 4.8).min(100.0);
-            act.world.push_part(0, Node::Chest, force, None);
+            act.world.push_part(CharacterId::first_in(0), Node::Chest, force, None);
             act.step();
         }
         let parts = &act.world.frame().characters[0].parts;

@@ -7,7 +7,7 @@ use sinew_body::humanoid::{Body, Limb, LimbGoal, Node, Pose, log, solve_limb};
 use sinew_control::Wanted;
 use sinew_control::ik::Reach;
 use sinew_control::pose::{KeyPose, PoseError, PosePlayer, angles_deg, read_poses, resolve_poses, rotation_of};
-use sinew_world::{BodyState, CharacterFrame, Frame};
+use sinew_world::{BodyState, CharacterFrame, CharacterId, Frame};
 use std::collections::BTreeMap;
 
 fn body() -> Body {
@@ -41,7 +41,7 @@ fn standing(body: &Body) -> Frame {
         external: CharacterFrame::EMPTY.external,
         was_reset: false,
     };
-    Frame { characters: vec![character], ..Frame::default() }
+    Frame::of(vec![character], Vec::new())
 }
 
 #[test]
@@ -223,7 +223,7 @@ fn the_wanted_pose_moves_without_a_jump_even_when_the_aim_changes_half_way() {
             200 => player.ik.release(Limb::LeftArm),
             _ => {}
         }
-        player.write(&frame, 0, &body, step, &mut target);
+        player.write(&frame, CharacterId::first_in(0), &body, step, &mut target);
         for node in Node::ALL {
             let (old, new) = (before.joint(node), target.joint(node));
             // Smoothstep's steepest is 1.5 times the mean: 120 degrees in 0.2 s are 0.065 rad a step.
@@ -245,11 +245,11 @@ fn with_follow_velocity_the_wanted_velocity_is_that_of_the_blend() {
         resolved("[poses.a]\nfollow_velocity = true\nblend_secs = 0.5\njoints.leftLowerArm = [-90, 0, 0]").unwrap();
     let mut player = PosePlayer::new(&poses["stand"]);
     let mut target = Wanted::STANDING;
-    player.write(&frame, 0, &body, step, &mut target);
+    player.write(&frame, CharacterId::first_in(0), &body, step, &mut target);
     player.aim(&poses["a"]);
     let mut turned = DVec3::ZERO;
     for _ in 0..120 {
-        player.write(&frame, 0, &body, step, &mut target);
+        player.write(&frame, CharacterId::first_in(0), &body, step, &mut target);
         turned += target.joint(Node::LeftLowerArm).velocity * step;
     }
     // The velocities of a turn about one axis add up to the turn.
@@ -265,7 +265,7 @@ fn a_reaching_limb_wants_its_hand_at_the_target_of_the_world() {
     player.ik.reach(Limb::RightArm, reach);
     let mut target = Wanted::STANDING;
     for _ in 0..240 {
-        player.write(&frame, 0, &body, step, &mut target);
+        player.write(&frame, CharacterId::first_in(0), &body, step, &mut target);
     }
     let mut locals = target.joints.map(|joint| joint.rotation);
     locals[0] = DQuat::IDENTITY;

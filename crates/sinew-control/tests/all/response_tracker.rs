@@ -5,7 +5,7 @@ use crate::walker::{Scene, Walk, angle_deg, ball};
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::tracker::{KinematicTracker, Tracker as _};
-use sinew_world::{Entity, Form, Motion, PropSpec, Solid, WorldSettings};
+use sinew_world::{CharacterId, Entity, Form, Motion, PropId, PropSpec, Solid, WorldSettings};
 
 /// Motion frame in which a thrown ball arrives, and in which it sets out.
 const HIT: usize = 90;
@@ -26,7 +26,12 @@ fn throw(walk: &Walk, node: Node, mass_kg: f64) -> Scene {
 /// Impulse on the ball in the world's last step.
 fn on_ball(scene: &Scene) -> DVec3 {
     let frame = scene.world.frame();
-    frame.contacts.iter().filter(|contact| contact.a == Entity::Prop(0)).map(|contact| -contact.impulse).sum()
+    frame
+        .contacts
+        .iter()
+        .filter(|contact| contact.a == Entity::Prop(PropId::first_in(0)))
+        .map(|contact| -contact.impulse)
+        .sum()
 }
 
 #[test]
@@ -70,15 +75,15 @@ fn a_ball_bounces_off_as_from_a_free_body_and_not_as_from_a_wall() {
                 for step in 0..400 {
                     match (kind, touched) {
                         (1, Some(_)) => {
-                            scene.tracker.release(&mut scene.world, 0);
-                            scene.world.set_gravity(0, 0.0);
+                            scene.tracker.release(&mut scene.world, CharacterId::first_in(0));
+                            scene.world.set_gravity(CharacterId::first_in(0), 0.0);
                             scene.world.step();
                         }
                         (2, _) => {
                             if kinematic.wants_pose() {
                                 kinematic.wanted(walk.pose(THROWN + 1 + step / 4));
                             }
-                            kinematic.physics_step(&mut scene.world, 0);
+                            kinematic.physics_step(&mut scene.world, CharacterId::first_in(0));
                             scene.world.step();
                         }
                         _ => scene.step(),
@@ -170,7 +175,7 @@ fn a_jerked_platform_carries_the_feet_and_the_trunk_lags() {
             scene.world.accelerate_prop(platform, DVec3::ZERO);
         }
         scene.frame();
-        let shift = scene.world.frame().props[platform].position;
+        let shift = scene.world.frame().props[platform.slot()].position;
         let mut wanted = *scene.wanted();
         wanted.hips_position += shift;
         let pose = scene.pose();
@@ -186,7 +191,7 @@ fn a_jerked_platform_carries_the_feet_and_the_trunk_lags() {
             last = last.max(scene.error_m(&wanted));
         }
     }
-    let travelled = scene.world.frame().props[platform].position.z;
+    let travelled = scene.world.frame().props[platform.slot()].position.z;
     println!(
         "platform {travelled:.2} m; chest leans {:.1}° forward, feet off by {:.0} mm at most; rms {:.1} mm before, {:.1} mm in the end",
         lean.asin().to_degrees(),
@@ -287,7 +292,7 @@ fn a_kinematic_walker_is_where_the_walk_has_it_and_pushes_with_infinite_mass() {
     for frame in 1..180 {
         tracker.wanted(walk.pose(frame));
         for _ in 0..4 {
-            tracker.physics_step(&mut scene.world, 0);
+            tracker.physics_step(&mut scene.world, CharacterId::first_in(0));
             scene.world.step();
         }
         assert!(tracker.wants_pose());
@@ -295,7 +300,7 @@ fn a_kinematic_walker_is_where_the_walk_has_it_and_pushes_with_infinite_mass() {
     }
     // Rounding of rotations.
     assert!(worst < 1e-6, "{worst}");
-    assert!(scene.world.frame().props[crate_at].position.z > 2.0, "the crate goes along");
+    assert!(scene.world.frame().props[crate_at.slot()].position.z > 2.0, "the crate goes along");
 }
 
 #[test]
@@ -304,7 +309,7 @@ fn the_same_scene_gives_the_same_bits() {
     let [one, other] = [0, 1].map(|_| {
         let mut scene = throw(&walk, Node::Head, 1.0);
         scene.tracker.keep_upright(Some(Node::RightHand));
-        scene.tracker.avoid(&[0]);
+        scene.tracker.avoid(&[PropId::first_in(0)]);
         scene.frames_until(HIT + 20);
         scene.world.hash()
     });

@@ -13,7 +13,7 @@ use sinew_control::pose::{KeyPose, PosePlayer, read_poses, resolve_poses};
 use sinew_control::reflex::{Balance, BalanceSettings, Reflex, Sense};
 use sinew_control::source::Source as _;
 use sinew_snapshot::{FrameKind, Snapshot};
-use sinew_world::Frame;
+use sinew_world::{CharacterId, Frame};
 use std::collections::BTreeMap;
 
 const KIND: FrameKind = FrameKind { magic: *b"TEST", version: 1 };
@@ -73,7 +73,10 @@ fn the_balance_reflex_that_is_restored_goes_on_to_the_same_bits() {
             let mut target = standing.wanted.clone();
             let gains = standing.tracker.gains();
             let (frame, body) = (&frames[at], &standing.body);
-            reflex.step(&Sense { frame, own: 0, body, gains, step_secs: STEP_SECS, gravity_m_s2: 9.81 }, &mut target);
+            reflex.step(
+                &Sense { frame, own: CharacterId::first_in(0), body, gains, step_secs: STEP_SECS, gravity_m_s2: 9.81 },
+                &mut target,
+            );
             bits(&target)
         },
     );
@@ -94,7 +97,7 @@ fn key_poses_graphs_and_limbs_that_reach_are_restored_to_the_same_bits() {
         || (GraphPlayer::new(&graph, STEP_SECS), PosePlayer::new(&KeyPose::STAND)),
         frames.len(),
         |(graph_player, player), at| {
-            if graph_player.step(&graph, &frames[at], 0, &[""; 0]).is_some() || at == 0 {
+            if graph_player.step(&graph, &frames[at], CharacterId::first_in(0), &[""; 0]).is_some() || at == 0 {
                 player.aim(graph_player.pose(&graph));
             }
             match at {
@@ -104,7 +107,7 @@ fn key_poses_graphs_and_limbs_that_reach_are_restored_to_the_same_bits() {
                 _ => {}
             }
             let mut target = Wanted::STANDING;
-            player.write(&frames[at], 0, &body, STEP_SECS, &mut target);
+            player.write(&frames[at], CharacterId::first_in(0), &body, STEP_SECS, &mut target);
             (bits(&target), graph_player.state_name(&graph).to_owned())
         },
     );

@@ -7,7 +7,7 @@ use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::tracker::{KdPreset, KdSettings};
 use sinew_testkit::allocations;
-use sinew_world::{Form, Motion, PropSpec, Solid};
+use sinew_world::{CharacterId, Form, Motion, PropSpec, Solid};
 
 #[test]
 fn a_responding_trackers_step_allocates_nothing() {
@@ -24,7 +24,7 @@ fn a_responding_trackers_step_allocates_nothing() {
             scene.frame += 1;
             scene.tracker.wanted(walk.pose(scene.frame));
         }
-        count += allocations(|| scene.tracker.physics_step(&mut scene.world, 0)).1;
+        count += allocations(|| scene.tracker.physics_step(&mut scene.world, CharacterId::first_in(0))).1;
         felt += scene.tracker.forces().len();
         scene.world.step();
     }
@@ -51,7 +51,7 @@ fn a_performers_trackers_step_allocates_nothing() {
             _ => {}
         }
         if (120..144).contains(&step) {
-            act.world.push_part(0, Node::Chest, DVec3::Z * 200.0, None);
+            act.world.push_part(CharacterId::first_in(0), Node::Chest, DVec3::Z * 200.0, None);
         }
         count += allocations(|| act.track()).1;
         act.world.step();

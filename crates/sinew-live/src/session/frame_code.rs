@@ -12,7 +12,7 @@ use super::limits::{MAX_CHARACTERS, MAX_CONTACTS, MAX_CORNERS, MAX_PROPS};
 use super::wire::{Malformed, Reader};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
-use sinew_world::{BodyState, CharacterFrame, Contact, Entity, Frame};
+use sinew_world::{BodyState, CharacterFrame, CharacterId, Contact, Entity, Frame, PropId};
 
 /// Bytes of a body, of a character without corners, of a contact.
 const BODY: usize = 16 * 8;
@@ -80,15 +80,9 @@ pub fn decode_frame(bytes: &[u8]) -> Result<(Frame, u64), Malformed> {
     if characters * CHARACTER + props * BODY + contacts * CONTACT > from.0.len() {
         return Err(Malformed("it counts more than it holds"));
     }
-    let mut frame = Frame { step, time_secs, ..Frame::default() };
-    frame.characters.reserve_exact(characters);
-    for _ in 0..characters {
-        frame.characters.push(read_character(&mut from)?);
-    }
-    frame.props.reserve_exact(props);
-    for _ in 0..props {
-        frame.props.push(read_body(&mut from)?);
-    }
+    let these = (0..characters).map(|_| read_character(&mut from)).collect::<Result<_, _>>()?;
+    let those = (0..props).map(|_| read_body(&mut from)).collect::<Result<_, _>>()?;
+    let mut frame = Frame { step, time_secs, ..Frame::of(these, those) };
     frame.contacts.reserve_exact(contacts);
     for _ in 0..contacts {
         let (a, b) = (read_entity(&mut from)?, read_entity(&mut from)?);
@@ -96,8 +90,8 @@ pub fn decode_frame(bytes: &[u8]) -> Result<(Frame, u64), Malformed> {
         for entity in [a, b] {
             let is_there = match entity {
                 Entity::Floor => true,
-                Entity::Prop(prop) => prop < props,
-                Entity::Part(character, _) => character < characters,
+                Entity::Prop(prop) => prop.slot() < props,
+                Entity::Part(character, _) => character.slot() < characters,
             };
             if !is_there {
                 return Err(Malformed("a contact is with something that is not there"));
@@ -158,8 +152,8 @@ fn read_body(from: &mut Reader) -> Result<BodyState, Malformed> {
 fn entity(it: Entity, out: &mut Vec<u8>) {
     let (kind, index, node) = match it {
         Entity::Floor => (0, 0, 0),
-        Entity::Prop(prop) => (1, prop, 0),
-        Entity::Part(character, node) => (2, character, node.index()),
+        Entity::Prop(prop) => (1, prop.slot(), 0),
+        Entity::Part(character, node) => (2, character.slot(), node.index()),
     };
     out.push(kind);
     out.extend((index as u16).to_le_bytes());
@@ -170,10 +164,10 @@ fn read_entity(from: &mut Reader) -> Result<Entity, Malformed> {
     let (kind, index, node) = (from.u8()?, usize::from(from.u16()?), usize::from(from.u8()?));
     match kind {
         0 => Ok(Entity::Floor),
-        1 => Ok(Entity::Prop(index)),
+        1 => Ok(Entity::Prop(PropId::first_in(index))),
         2 => {
             let node = Node::ALL.get(node).ok_or(Malformed("there is no such part"))?;
-            Ok(Entity::Part(index, *node))
+            Ok(Entity::Part(CharacterId::first_in(index), *node))
         }
         _ => Err(Malformed("there is no such kind of thing")),
     }

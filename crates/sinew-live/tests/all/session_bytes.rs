@@ -7,7 +7,7 @@ use sinew_control::perform::{PerformerSample, SampleStatus};
 use sinew_live::session::{
     ClientDatagram, ClientMessage, Hello, PROTOCOL, Refusal, ServerMessage, decode_frame, encode_frame,
 };
-use sinew_world::{BodyState, CharacterFrame, Contact, Entity, Frame};
+use sinew_world::{BodyState, CharacterFrame, CharacterId, Contact, Entity, Frame, PropId};
 
 /// A frame whose every number is another.
 fn frame(characters: usize, props: usize, contacts: usize) -> Frame {
@@ -22,7 +22,7 @@ fn frame(characters: usize, props: usize, contacts: usize) -> Frame {
         let rotation = DQuat::from_xyzw(a.x, a.y, a.z, b.x);
         BodyState { position: a, rotation, centre: b, velocity: a - b, angular_velocity: b - a }
     };
-    let mut frame = Frame { step: u64::MAX - 1, time_secs: 1.0 / 7.0, ..Frame::default() };
+    let mut seen = Vec::new();
     for at in 0..characters {
         let mut character = CharacterFrame::EMPTY;
         character.parts = std::array::from_fn(|_| body());
@@ -31,13 +31,18 @@ fn frame(characters: usize, props: usize, contacts: usize) -> Frame {
             (more.position, more.centre, more.velocity);
         character.support = vec![more.position; at * 3];
         character.was_reset = at % 2 == 1;
-        frame.characters.push(character);
+        seen.push(character);
     }
-    frame.props = (0..props).map(|_| body()).collect();
+    let things = (0..props).map(|_| body()).collect();
+    let mut frame = Frame { step: u64::MAX - 1, time_secs: 1.0 / 7.0, ..Frame::of(seen, things) };
     frame.contacts = (0..contacts)
         .map(|at| Contact {
-            a: if at % 2 == 0 || props == 0 { Entity::Floor } else { Entity::Prop(at % props) },
-            b: if characters == 0 { Entity::Floor } else { Entity::Part(at % characters, Node::ALL[at % Node::COUNT]) },
+            a: if at % 2 == 0 || props == 0 { Entity::Floor } else { Entity::Prop(PropId::first_in(at % props)) },
+            b: if characters == 0 {
+                Entity::Floor
+            } else {
+                Entity::Part(CharacterId::first_in(at % characters), Node::ALL[at % Node::COUNT])
+            },
             point: body().position,
             impulse: body().velocity,
             begins: at % 3 == 0,

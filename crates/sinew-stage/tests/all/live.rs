@@ -44,7 +44,7 @@ fn a_performer_of_another_size_moves_the_character_from_its_own_place_and_facing
     let mut stage = stage();
     perform(&mut stage, 480);
     let red = stage.cast().character("red").unwrap();
-    let seen = &stage.frame().characters[red];
+    let seen = &stage.frame().characters[red.slot()];
     // It faces +X; the legs are 1.7 / 1.2 as long, and so are the steps. The delay is about a tenth of a second.
     let way = seen.part(Node::Hips).position - DVec3::new(2.0, 0.0, 0.0);
     let wanted = 0.4 * 1.9 * 1.7 / 1.2;
@@ -68,7 +68,7 @@ fn a_stream_that_ends_is_held_then_the_character_stands_at_ease() {
     let told: Vec<&Effect> = stage.events().list().iter().map(|event| &event.effect).collect();
     let does = |presence| Effect::of("red", CharacterEffect::Performer { presence, replaces_understudy: false });
     assert_eq!(told, [&does(Presence::Performing), &does(Presence::Holding), &does(Presence::Relaxed)]);
-    let seen = &stage.frame().characters[red];
+    let seen = &stage.frame().characters[red.slot()];
     assert!((seen.part(Node::LeftUpperArm).rotation * DVec3::NEG_Y + DVec3::Y).length() < 0.01, "the arm hangs");
     assert_eq!(stage.state_of(red).unwrap().performance().unwrap().presence(), Presence::Relaxed);
 }
@@ -92,7 +92,7 @@ fn a_performer_may_hand_over_to_a_pose_and_take_over_again() {
     let mut stage = stage();
     perform(&mut stage, 120);
     let red = stage.cast().character("red").unwrap();
-    let arm = |stage: &Stage| stage.frame().characters[red].part(Node::LeftUpperArm).rotation * DVec3::NEG_Y;
+    let arm = |stage: &Stage| stage.frame().characters[red.slot()].part(Node::LeftUpperArm).rotation * DVec3::NEG_Y;
     stage.command(Command::to("red", Action::Pose { name: "stand".to_owned() }));
     perform(&mut stage, 480);
     assert!((arm(&stage) + DVec3::Y).length() < 0.01, "the pose has it");
@@ -127,7 +127,7 @@ fn a_simulated_body_that_loses_its_performer_stands_and_takes_up_again_without_a
             stage.command(Command::to("red", Action::Perform { sample: Box::new(sample) }));
         }
         stage.step();
-        let seen = &stage.frame().characters[red];
+        let seen = &stage.frame().characters[red.slot()];
         let places: Vec<DVec3> = seen.parts.iter().map(|part| part.position).collect();
         let ways = before.iter().flatten().zip(&places).map(|(a, b)| a.distance(*b));
         farthest = ways.fold(farthest, f64::max);
@@ -192,7 +192,7 @@ fn a_spoilt_first_sample_does_not_place_the_performance() {
     perform(&mut stage, 480);
     perform(&mut other, 480);
     let hips = |stage: &Stage| stage.frame().characters[1].part(Node::Hips).position;
-    assert_eq!(stage.cast().character("red"), Some(1));
+    assert_eq!(stage.cast().character("red"), Some(sinew_world::CharacterId::first_in(1)));
     // What goes on for ten samples is believed: the way begins eleven samples later, 0.18 s at 0.6 m/s.
     assert!((hips(&stage) - hips(&other)).length() < 0.12, "{} {}", hips(&stage), hips(&other));
     assert!((hips(&stage).y - hips(&other).y).abs() < 1e-3);

@@ -6,6 +6,7 @@ use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command, Layer};
 use sinew_stage::{CharacterEffect, Effect, Scene, Stage};
+use sinew_world::CharacterId;
 
 fn stage(text: &str) -> Stage {
     Stage::new(Scene::from_text(&format!("format = 1\n{text}")).unwrap(), None).unwrap()
@@ -57,15 +58,15 @@ fn gravity_fades_and_acts_on_one_part() {
     let command = "[[at]]\ntime_secs = 0\ncharacter = \"one\"\ndo = \"gravity\"\nscale = -1.0\n";
     let mut fades = stage(&format!("{STANDING}{command}over_secs = 1.0\n"));
     steps(&mut fades, 120);
-    assert!(fades.world().part_gravity(0, Node::Head).abs() < 1e-9, "half way from 1 to -1");
+    assert!(fades.world().part_gravity(CharacterId::first_in(0), Node::Head).abs() < 1e-9, "half way from 1 to -1");
     steps(&mut fades, 240);
-    assert_eq!(fades.world().part_gravity(0, Node::Head), -1.0);
+    assert_eq!(fades.world().part_gravity(CharacterId::first_in(0), Node::Head), -1.0);
     let mut part = stage(&format!("{STANDING}{command}part = \"leftHand\"\nfor_secs = 0.5\n"));
     steps(&mut part, 60);
-    assert_eq!(part.world().part_gravity(0, Node::LeftHand), -1.0);
-    assert_eq!(part.world().part_gravity(0, Node::RightHand), 1.0);
+    assert_eq!(part.world().part_gravity(CharacterId::first_in(0), Node::LeftHand), -1.0);
+    assert_eq!(part.world().part_gravity(CharacterId::first_in(0), Node::RightHand), 1.0);
     steps(&mut part, 120);
-    assert_eq!(part.world().part_gravity(0, Node::LeftHand), 1.0);
+    assert_eq!(part.world().part_gravity(CharacterId::first_in(0), Node::LeftHand), 1.0);
 }
 
 #[test]
@@ -232,7 +233,7 @@ fn an_added_shape_touches_until_its_time_is_over() {
         // 3 m of fall take 0.78 s; the pole reaches 0.7 m lower than the soles, and touches after 0.69 s.
         for _ in 0..180 {
             stage.step();
-            touches |= stage.frame().are_touching(Entity::Floor, Entity::Part(0, Node::Hips));
+            touches |= stage.frame().are_touching(Entity::Floor, Entity::Part(CharacterId::first_in(0), Node::Hips));
         }
         touches
     };

@@ -4,7 +4,9 @@
 use crate::common::{adult, fallen, floor_impulse, hold, lifted, prone, spec, standing, steps, supine};
 use glam::DVec3;
 use sinew_body::humanoid::Node;
-use sinew_world::{Entity, Form, Motion, PartShape, PropSpec, Solid, Surface, World, WorldSettings, margin};
+use sinew_world::{
+    CharacterId, Entity, Form, Motion, PartShape, PropId, PropSpec, Solid, Surface, World, WorldSettings, margin,
+};
 
 fn crate_of(mass_kg: f64, position: DVec3) -> PropSpec {
     let solid = Solid::new(Form::Box { size_m: DVec3::splat(0.5) });
@@ -20,7 +22,7 @@ fn what_lies_is_borne_by_its_contacts() {
         let mut borne = 0.0;
         for _ in 0..24 {
             world.step();
-            borne += floor_impulse(&world, 0);
+            borne += floor_impulse(&world, CharacterId::first_in(0));
         }
         let weight = body.mass_kg() * 9.81 * 0.1;
         // It still settles by a millimetre.
@@ -41,7 +43,7 @@ fn the_impulse_of_an_impact_is_the_momentum_that_it_ends() {
     let momentum = world.frame().props[0].velocity.y * 10.0;
     assert!((given - 98.1 - momentum).abs() < 1.0, "{given} N s");
     let contact = world.frame().contacts[0];
-    assert_eq!((contact.a, contact.b), (Entity::Floor, Entity::Prop(0)));
+    assert_eq!((contact.a, contact.b), (Entity::Floor, Entity::Prop(PropId::first_in(0))));
     assert!(
         contact.point.y.abs() < 0.01 && contact.point.length() < 0.05,
         "in the middle of its sole: {}",
@@ -57,16 +59,16 @@ fn a_touch_begins_once_and_only_what_touches_is_told() {
     let mut begins = 0;
     for _ in 0..100 {
         world.step();
-        begins += world.frame().touching(Entity::Prop(0)).filter(|contact| contact.begins).count();
+        begins += world.frame().touching(Entity::Prop(PropId::first_in(0))).filter(|contact| contact.begins).count();
     }
     assert_eq!(begins, 1);
-    assert!(world.frame().are_touching(Entity::Prop(0), Entity::Floor));
-    assert!(!world.frame().are_touching(Entity::Prop(1), Entity::Floor));
-    assert!(!world.frame().are_touching(Entity::Prop(0), Entity::Prop(1)));
+    assert!(world.frame().are_touching(Entity::Prop(PropId::first_in(0)), Entity::Floor));
+    assert!(!world.frame().are_touching(Entity::Prop(PropId::first_in(1)), Entity::Floor));
+    assert!(!world.frame().are_touching(Entity::Prop(PropId::first_in(0)), Entity::Prop(PropId::first_in(1))));
     // Adding something does not make old touches new.
     world.add_prop(crate_of(1.0, DVec3::new(9.0, 2.0, 0.0))).unwrap();
     world.step();
-    assert!(world.frame().touching(Entity::Prop(0)).all(|contact| !contact.begins));
+    assert!(world.frame().touching(Entity::Prop(PropId::first_in(0))).all(|contact| !contact.begins));
 }
 
 #[test]
@@ -74,10 +76,13 @@ fn a_standing_body_touches_the_floor_with_its_feet_alone_and_stands_on_their_hul
     let body = adult();
     let mut world = World::new(WorldSettings::default());
     world.add_character(spec(&body, standing(&body))).unwrap();
-    hold(&mut world, 0, 3.0);
+    hold(&mut world, CharacterId::first_in(0), 3.0);
     steps(&mut world, 1.0);
     for contact in &world.frame().contacts {
-        assert!(matches!(contact.b, Entity::Part(0, Node::LeftFoot | Node::RightFoot)), "{contact:?}");
+        assert!(
+            matches!(contact.b, Entity::Part(id, Node::LeftFoot | Node::RightFoot) if id == CharacterId::first_in(0)),
+            "{contact:?}"
+        );
     }
     let one = &world.frame().characters[0];
     assert!(one.support.len() >= 4, "{:?}", one.support);
@@ -109,8 +114,8 @@ fn arms_do_not_pass_through_the_trunk() {
                 world.frame().characters[0].part(node).position,
                 world.frame().characters[0].part(Node::Chest).centre + DVec3::Z * 0.0,
             );
-            world.push_part(0, node, (chest - hand).normalize_or_zero() * 60.0, None);
-            world.push_part(0, Node::Chest, (hand - chest).normalize_or_zero() * 60.0, None);
+            world.push_part(CharacterId::first_in(0), node, (chest - hand).normalize_or_zero() * 60.0, None);
+            world.push_part(CharacterId::first_in(0), Node::Chest, (hand - chest).normalize_or_zero() * 60.0, None);
         }
         world.step();
     }
@@ -137,10 +142,15 @@ fn a_sensor_tells_who_is_in_it_and_pushes_nobody() {
     for _ in 0..240 {
         world.step();
         free.step();
-        let told = world.frame().are_touching(Entity::Prop(0), Entity::Prop(1));
+        let told = world.frame().are_touching(Entity::Prop(PropId::first_in(0)), Entity::Prop(PropId::first_in(1)));
         let height = world.frame().props[1].position.y;
         inside += u32::from(told);
-        begins += world.frame().contacts.iter().filter(|touch| touch.a == Entity::Prop(0) && touch.begins).count();
+        begins += world
+            .frame()
+            .contacts
+            .iter()
+            .filter(|touch| touch.a == Entity::Prop(PropId::first_in(0)) && touch.begins)
+            .count();
         // Half the box and half the zone; within a step's fall.
         if (height - 1.5).abs() < 0.32 {
             assert!(told, "not told at {height} m");
@@ -162,11 +172,11 @@ fn smooth_feet_slide_and_rough_ones_stay() {
         let spec =
             sinew_world::CharacterSpec { surface: Surface { friction, bounce: 0.0 }, ..spec(&body, standing(&body)) };
         world.add_character(spec).unwrap();
-        hold(&mut world, 0, 4.0);
+        hold(&mut world, CharacterId::first_in(0), 4.0);
         steps(&mut world, 0.5);
         let start = world.frame().characters[0].part(Node::LeftFoot).position;
         for _ in 0..60 {
-            world.push_part(0, Node::Hips, DVec3::X * 120.0, None);
+            world.push_part(CharacterId::first_in(0), Node::Hips, DVec3::X * 120.0, None);
             world.step();
         }
         (world.frame().characters[0].part(Node::LeftFoot).position - start).x
@@ -182,17 +192,17 @@ fn skis_hold_up_a_body_that_falls_without_them() {
     let lean = |skis: bool| {
         let mut world = World::new(WorldSettings::default());
         world.add_character(spec(&body, standing(&body))).unwrap();
-        hold(&mut world, 0, 6.0);
+        hold(&mut world, CharacterId::first_in(0), 6.0);
         if skis {
             for node in [Node::LeftFoot, Node::RightFoot] {
                 let ski = Solid::new(Form::Box { size_m: DVec3::new(0.12, 0.03, 1.8) });
                 let under = DVec3::new(0.0, -sinew_world::sole_m(&body, node) + 0.015, 0.05);
-                world.set_shape(0, node, PartShape::Other(ski.at(under))).unwrap();
+                world.set_shape(CharacterId::first_in(0), node, PartShape::Other(ski.at(under))).unwrap();
             }
         }
         steps(&mut world, 0.5);
         for _ in 0..120 {
-            world.push_part(0, Node::Chest, DVec3::Z * 160.0, None);
+            world.push_part(CharacterId::first_in(0), Node::Chest, DVec3::Z * 160.0, None);
             world.step();
         }
         steps(&mut world, 2.0);
@@ -208,12 +218,14 @@ fn a_part_without_a_shape_passes_through_and_its_own_comes_back() {
     let body = adult();
     let mut world = World::new(WorldSettings::default());
     world.add_character(spec(&body, standing(&body))).unwrap();
-    hold(&mut world, 0, 3.0);
-    world.set_shape(0, Node::LeftFoot, PartShape::None).unwrap();
+    hold(&mut world, CharacterId::first_in(0), 3.0);
+    world.set_shape(CharacterId::first_in(0), Node::LeftFoot, PartShape::None).unwrap();
     steps(&mut world, 0.1);
-    let touching = |world: &World| world.frame().are_touching(Entity::Floor, Entity::Part(0, Node::LeftFoot));
+    let touching = |world: &World| {
+        world.frame().are_touching(Entity::Floor, Entity::Part(CharacterId::first_in(0), Node::LeftFoot))
+    };
     assert!(!touching(&world));
-    world.set_shape(0, Node::LeftFoot, PartShape::Own).unwrap();
+    world.set_shape(CharacterId::first_in(0), Node::LeftFoot, PartShape::Own).unwrap();
     steps(&mut world, 0.2);
     assert!(touching(&world));
 }
@@ -228,16 +240,16 @@ fn a_platform_carries_what_lies_on_it_and_wakes_it() {
     world.add_prop(PropSpec { surface, ..crate_of(20.0, DVec3::new(2.0, 0.26, 0.0)) }).unwrap();
     world.add_character(spec(&body, lifted(&body, supine(), 0.02))).unwrap();
     steps(&mut world, 5.0);
-    assert!(world.is_asleep(0));
+    assert!(world.is_asleep(CharacterId::first_in(0)));
     let place = |world: &World| {
         let (deck, one) = (&world.frame().props[0], &world.frame().characters[0]);
         (one.centre_of_mass - deck.position, world.frame().props[1].position - deck.position)
     };
     let (body_before, crate_before) = place(&world);
     // 2 m/s² ask for a friction of 0.2.
-    world.accelerate_prop(0, DVec3::Z * 2.0);
+    world.accelerate_prop(PropId::first_in(0), DVec3::Z * 2.0);
     steps(&mut world, 0.5);
-    world.accelerate_prop(0, DVec3::ZERO);
+    world.accelerate_prop(PropId::first_in(0), DVec3::ZERO);
     steps(&mut world, 1.0);
     let (body_after, crate_after) = place(&world);
     let speed = world.frame().characters[0].centre_velocity;
@@ -254,15 +266,15 @@ fn a_body_stands_on_a_platform_that_rises() {
     let deck = Solid::new(Form::Box { size_m: DVec3::new(4.0, 0.2, 4.0) });
     world.add_prop(PropSpec::new(deck, Motion::Moving, DVec3::new(0.0, -0.1, 0.0))).unwrap();
     world.add_character(spec(&body, standing(&body))).unwrap();
-    hold(&mut world, 0, 4.0);
+    hold(&mut world, CharacterId::first_in(0), 4.0);
     steps(&mut world, 0.5);
-    world.accelerate_prop(0, DVec3::Y * 2.0);
+    world.accelerate_prop(PropId::first_in(0), DVec3::Y * 2.0);
     steps(&mut world, 0.5);
     // The deck bears the weight and what lifts it.
     let mut borne = 0.0;
     for _ in 0..24 {
         world.step();
-        borne += world.frame().touching(Entity::Prop(0)).map(|touch| touch.impulse.y).sum::<f64>();
+        borne += world.frame().touching(Entity::Prop(PropId::first_in(0))).map(|touch| touch.impulse.y).sum::<f64>();
     }
     let expected = body.mass_kg() * (9.81 + 2.0) * 0.1;
     assert!((borne - expected).abs() < 0.05 * expected, "{borne} N s against {expected}");
@@ -298,7 +310,8 @@ fn a_fast_ball_does_not_pass_through_a_thin_wall_or_a_body() {
     let mut felt = 0.0;
     for _ in 0..60 {
         world.step();
-        felt += world.frame().touching(Entity::Prop(2)).map(|touch| touch.impulse.length()).sum::<f64>();
+        felt +=
+            world.frame().touching(Entity::Prop(PropId::first_in(2))).map(|touch| touch.impulse.length()).sum::<f64>();
     }
     assert!(world.frame().props[1].position.z > -5.0, "{}", world.frame().props[1].position);
     assert!(world.frame().props[2].position.z > -0.1, "{}", world.frame().props[2].position);
@@ -316,9 +329,13 @@ fn a_hand_passes_through_a_prop_that_it_still_touches() {
     let ball = Solid::new(Form::Ball { radius_m: 0.05 });
     let place = hand + DVec3::X * 0.03;
     world.add_prop(PropSpec::new(ball, Motion::Dynamic { mass_kg: 0.3 }, place)).unwrap();
-    world.set_passes_prop(0, Node::LeftHand, 0, true);
+    world.set_passes_prop(CharacterId::first_in(0), Node::LeftHand, PropId::first_in(0), true);
     steps(&mut world, 0.2);
     // To the last bit: nothing acts on it.
     assert_eq!(world.frame().props[0].position, place);
-    assert!(world.frame().are_touching(Entity::Part(0, Node::LeftHand), Entity::Prop(0)));
+    assert!(
+        world
+            .frame()
+            .are_touching(Entity::Part(CharacterId::first_in(0), Node::LeftHand), Entity::Prop(PropId::first_in(0)))
+    );
 }

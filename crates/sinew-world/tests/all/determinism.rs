@@ -4,7 +4,7 @@
 use crate::common::{adult, hold, lifted, odd_pose, spec, standing};
 use glam::DVec3;
 use sinew_body::humanoid::{Node, Pose};
-use sinew_world::{CharacterSpec, Entity, Form, Held, Motion, PropSpec, Solid, World, WorldSettings};
+use sinew_world::{CharacterId, CharacterSpec, Entity, Form, Held, Motion, PropSpec, Solid, World, WorldSettings};
 
 /// A scene with all that the world does, two seconds long; the hash of every step.
 fn play(threads: usize) -> Vec<u64> {
@@ -12,7 +12,7 @@ fn play(threads: usize) -> Vec<u64> {
     let mut world = World::new(WorldSettings::default());
     world.set_threads(threads);
     world.add_character(CharacterSpec { velocity: DVec3::Z * 0.5, ..spec(&body, standing(&body)) }).unwrap();
-    hold(&mut world, 0, 3.0);
+    hold(&mut world, CharacterId::first_in(0), 3.0);
     for seed in 0..3 {
         let mut pose = lifted(&body, odd_pose(&body, seed, 0.7), 0.3 + seed as f64);
         pose.hips_position.x += 0.3;
@@ -21,7 +21,7 @@ fn play(threads: usize) -> Vec<u64> {
     let mut plane: Pose = standing(&body);
     plane.hips_position.x = -3.0;
     world.add_character(spec(&body, plane)).unwrap();
-    world.hold_to_plane(4, DVec3::new(0.3, 0.0, 1.0));
+    world.hold_to_plane(CharacterId::first_in(4), DVec3::new(0.3, 0.0, 1.0));
     let ball =
         PropSpec::new(Solid::new(Form::Ball { radius_m: 0.12 }), Motion::Dynamic { mass_kg: 0.6 }, DVec3::Y * 3.0);
     world.add_prop(PropSpec { velocity: DVec3::new(0.5, 0.0, 0.3), ..ball.clone() }).unwrap();
@@ -31,15 +31,21 @@ fn play(threads: usize) -> Vec<u64> {
     let hand = world.frame().characters[0].part(Node::LeftHand).position;
     let held = world.add_prop(PropSpec { position: hand - DVec3::Y * 0.3, ..ball }).unwrap();
     let object = Entity::Prop(held);
-    world.attach(Held { character: 0, node: Node::LeftHand, object, soft: true, break_force_n: Some(500.0) });
+    world.attach(Held {
+        character: CharacterId::first_in(0),
+        node: Node::LeftHand,
+        object,
+        soft: true,
+        break_force_n: Some(500.0),
+    });
     (0..480)
         .map(|step| {
             match step {
-                60..84 => world.push_part(0, Node::Chest, DVec3::new(200.0, 0.0, 0.0), None),
-                120 => world.set_forces(0, Node::Hips, false),
-                180 => world.set_forces(0, Node::Hips, true),
-                240 => world.set_limp(0),
-                300 => world.free_from_plane(4),
+                60..84 => world.push_part(CharacterId::first_in(0), Node::Chest, DVec3::new(200.0, 0.0, 0.0), None),
+                120 => world.set_forces(CharacterId::first_in(0), Node::Hips, false),
+                180 => world.set_forces(CharacterId::first_in(0), Node::Hips, true),
+                240 => world.set_limp(CharacterId::first_in(0)),
+                300 => world.free_from_plane(CharacterId::first_in(4)),
                 _ => {}
             }
             world.step();
@@ -78,7 +84,7 @@ fn what_is_apart_does_not_care_about_the_order_in_which_it_was_added() {
     let body = adult();
     let run = |order: [usize; 3]| {
         let mut world = World::new(WorldSettings::default());
-        let mut number = [0; 3];
+        let mut number = [CharacterId::first_in(0); 3];
         for which in order {
             let mut pose = lifted(&body, odd_pose(&body, which as u64, 0.7), 0.4);
             pose.hips_position.x += 20.0 * which as f64;
@@ -87,8 +93,8 @@ fn what_is_apart_does_not_care_about_the_order_in_which_it_was_added() {
         for _ in 0..480 {
             world.step();
         }
-        number.map(|index| {
-            let parts = &world.frame().characters[index].parts;
+        number.map(|id| {
+            let parts = &world.frame().characters[id.slot()].parts;
             parts.iter().flat_map(|part| part.position.to_array()).map(f64::to_bits).collect::<Vec<_>>()
         })
     };
@@ -104,7 +110,12 @@ fn a_world_goes_on_from_where_it_is_whatever_was_looked_at() {
         for _ in 0..240 {
             world.step();
             if look {
-                let _ = (world.energy_j(0), world.largest_joint_gap_m(), world.is_asleep(0), world.frame().clone());
+                let _ = (
+                    world.energy_j(CharacterId::first_in(0)),
+                    world.largest_joint_gap_m(),
+                    world.is_asleep(CharacterId::first_in(0)),
+                    world.frame().clone(),
+                );
             }
         }
         world.hash()

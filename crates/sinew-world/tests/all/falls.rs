@@ -4,7 +4,7 @@
 use crate::common::{adult, fallen, lifted, odd_pose, prone, spec, standing, steps, supine, turned, worst_excess_deg};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, exp};
-use sinew_world::{World, WorldSettings};
+use sinew_world::{CharacterId, World, WorldSettings};
 
 /// A start: how the body is placed, how fast it goes and turns.
 struct Start {
@@ -52,13 +52,13 @@ struct Fall {
 
 fn fall(body: &Body, start: &Start, overlaps_secs: f64) -> Fall {
     let mut world = fallen(body, start.pose, start.velocity);
-    world.spin_character(0, start.spin);
-    let start_j = world.energy_j(0);
+    world.spin_character(CharacterId::first_in(0), start.spin);
+    let start_j = world.energy_j(CharacterId::first_in(0));
     let (mut low, mut rise_j, mut gap_m, mut excess_deg) = (start_j, 0.0f64, 0.0f64, 0.0f64);
     let mut asleep_at_secs = None;
     for step in 0..240 * 12 {
         world.step();
-        let energy = world.energy_j(0);
+        let energy = world.energy_j(CharacterId::first_in(0));
         let secs = world.frame().time_secs;
         if secs > overlaps_secs {
             rise_j = rise_j.max(energy - low);
@@ -67,8 +67,8 @@ fn fall(body: &Body, start: &Start, overlaps_secs: f64) -> Fall {
             low = energy;
         }
         gap_m = gap_m.max(world.largest_joint_gap_m());
-        excess_deg = excess_deg.max(worst_excess_deg(&world, 0).0);
-        if world.is_asleep(0) {
+        excess_deg = excess_deg.max(worst_excess_deg(&world, CharacterId::first_in(0)).0);
+        if world.is_asleep(CharacterId::first_in(0)) {
             asleep_at_secs = Some(f64::from(step) / 240.0);
             break;
         }
@@ -86,7 +86,7 @@ fn energy_of_a_limp_body_never_grows_and_its_joints_stay_together_until_it_sleep
         let odd = start.name.starts_with("odd");
         let fall = fall(&body, &start, if odd { OVERLAPS_SECS } else { 0.0 });
         let (name, rest_gap) = (&start.name, fall.world.largest_joint_gap_m());
-        let (rest_excess, joint) = worst_excess_deg(&fall.world, 0);
+        let (rest_excess, joint) = worst_excess_deg(&fall.world, CharacterId::first_in(0));
         println!(
             "{name}: {:.0} J, rise {:.2} %, gap {:.2} mm, at rest {:.4} mm, beyond limits {:.1}, at rest {rest_excess:.2}, asleep {:?}",
             fall.start_j,
@@ -140,7 +140,7 @@ fn bodies_of_other_builds_fall_as_soundly() {
         assert!(fall.rise_j < 0.01 * fall.start_j, "{name}: rose by {} of {} J", fall.rise_j, fall.start_j);
         assert!(fall.gap_m < 0.01, "{name}: gap {}", fall.gap_m);
         assert!(fall.world.largest_joint_gap_m() < 1e-3, "{name}");
-        let (excess, joint) = worst_excess_deg(&fall.world, 0);
+        let (excess, joint) = worst_excess_deg(&fall.world, CharacterId::first_in(0));
         assert!(excess < 2.0, "{name}: {joint:?} {excess}");
         assert!(fall.asleep_at_secs.is_some(), "{name}: does not sleep");
     }
@@ -151,13 +151,13 @@ fn a_body_at_rest_is_left_alone_and_wakes_when_it_is_hit() {
     let body = adult();
     let mut world = fallen(&body, lifted(&body, supine(), 0.05), DVec3::ZERO);
     steps(&mut world, 6.0);
-    assert!(world.is_asleep(0));
+    assert!(world.is_asleep(CharacterId::first_in(0)));
     let hash = world.hash();
     steps(&mut world, 1.0);
     assert_eq!(world.hash(), hash, "what sleeps does not move by a bit");
-    world.push_part(0, Node::LeftFoot, DVec3::new(0.0, 500.0, 0.0), None);
+    world.push_part(CharacterId::first_in(0), Node::LeftFoot, DVec3::new(0.0, 500.0, 0.0), None);
     world.step();
-    assert!(!world.is_asleep(0));
+    assert!(!world.is_asleep(CharacterId::first_in(0)));
     steps(&mut world, 0.1);
     assert_ne!(world.hash(), hash);
 }
@@ -194,7 +194,7 @@ fn twenty_limp_bodies_pile_up_and_come_to_rest_on_the_floor() {
             );
             assert!(part.centre.y > 0.0, "{index} {node:?} sank to {}", part.centre.y);
         }
-        let (excess, joint) = worst_excess_deg(&world, index);
+        let (excess, joint) = worst_excess_deg(&world, CharacterId::first_in(index));
         // Under the weight of those above, which is more than at rest alone.
         assert!(excess < 6.0, "{index}: {joint:?} is {excess} degrees beyond its limit");
     }

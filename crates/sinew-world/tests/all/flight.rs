@@ -5,21 +5,21 @@ use crate::common;
 
 use crate::common::{adult, fallen, hold, lifted, momenta, odd_pose, standing, steps};
 use glam::DVec3;
-use sinew_world::{Form, Motion, PropSpec, Solid, World, WorldSettings};
+use sinew_world::{CharacterId, Form, Motion, PropSpec, Solid, World, WorldSettings};
 
 #[test]
 fn in_free_flight_the_centre_of_mass_falls_with_g_and_angular_momentum_stays() {
     let body = adult();
     for seed in 0..4 {
         let mut world = fallen(&body, lifted(&body, odd_pose(&body, seed, 0.6), 40.0), DVec3::new(2.0, 3.0, -1.0));
-        world.spin_character(0, DVec3::new(2.0, -1.0, 3.0));
+        world.spin_character(CharacterId::first_in(0), DVec3::new(2.0, -1.0, 3.0));
         // The limbs settle against their limits first.
-        let (momentum, spin) = momenta(&world, 0);
+        let (momentum, spin) = momenta(&world, CharacterId::first_in(0));
         let start = world.frame().characters[0].centre_of_mass;
         steps(&mut world, 1.0);
         let time = world.frame().time_secs;
         let gravity = DVec3::Y * -world.settings().gravity_m_s2;
-        let (momentum_then, spin_then) = momenta(&world, 0);
+        let (momentum_then, spin_then) = momenta(&world, CharacterId::first_in(0));
         let expected = momentum + gravity * body.mass_kg() * time;
         // The solver's forces are pairs; what is left is rounding.
         assert!((momentum_then - expected).length() < 1e-6 * expected.length(), "{momentum_then} {expected}");
@@ -41,10 +41,10 @@ fn springs_and_pushes_inside_a_body_do_not_move_it() {
     let body = adult();
     let mut world = World::new(WorldSettings { gravity_m_s2: 0.0, floor: None, ..WorldSettings::default() });
     world.add_character(common::spec(&body, odd_pose(&body, 3, 0.7))).unwrap();
-    hold(&mut world, 0, 4.0);
+    hold(&mut world, CharacterId::first_in(0), 4.0);
     let start = world.frame().characters[0].centre_of_mass;
     steps(&mut world, 2.0);
-    let (momentum, spin) = momenta(&world, 0);
+    let (momentum, spin) = momenta(&world, CharacterId::first_in(0));
     // Rounding: the limbs turn by radians within a second.
     assert!(momentum.length() < 1e-6, "{momentum}");
     assert!((world.frame().characters[0].centre_of_mass - start).length() < 1e-3);
@@ -59,10 +59,15 @@ fn a_force_gives_a_body_its_impulse_and_a_lever_its_turn() {
     world.add_character(common::spec(&body, standing(&body))).unwrap();
     let centre = world.frame().characters[0].centre_of_mass;
     for _ in 0..24 {
-        world.push_part(0, sinew_body::humanoid::Node::Chest, DVec3::X * 100.0, Some(centre + DVec3::Y * 0.3));
+        world.push_part(
+            CharacterId::first_in(0),
+            sinew_body::humanoid::Node::Chest,
+            DVec3::X * 100.0,
+            Some(centre + DVec3::Y * 0.3),
+        );
         world.step();
     }
-    let (momentum, spin) = momenta(&world, 0);
+    let (momentum, spin) = momenta(&world, CharacterId::first_in(0));
     // 100 N for a tenth of a second.
     assert!((momentum - DVec3::X * 10.0).length() < 1e-9, "{momentum}");
     // Lever 0.3 m at the start; the body has moved by a centimetre at the end.

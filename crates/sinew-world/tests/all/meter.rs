@@ -8,8 +8,8 @@ use crate::common::{adult, spec, standing};
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_world::{
-    CharacterFrame, Entity, ExternalForce, ExternalForces, Form, Held, Motion, Pin, PropSpec, Solid, World,
-    WorldSettings,
+    CharacterFrame, CharacterId, Entity, ExternalForce, ExternalForces, Form, Held, Motion, Pin, PropId, PropSpec,
+    Solid, World, WorldSettings,
 };
 
 fn sum(character: &CharacterFrame, of: impl Fn(&ExternalForces) -> ExternalForce) -> (DVec3, f64) {
@@ -29,7 +29,7 @@ const WEIGHT_N: f64 = 80.0 * 9.81;
 
 /// Lets the body hang by what holds it, joints held by springs that damp its swinging.
 fn settle(world: &mut World) {
-    common::hold(world, 0, 4.0);
+    common::hold(world, CharacterId::first_in(0), 4.0);
     common::steps(world, 8.0);
 }
 
@@ -45,7 +45,7 @@ fn pins_that_carry_a_body_spend_its_weight_and_no_power() {
             gravity_share: 1.0,
             ..Pin::LOOSE
         };
-        world.set_pin(0, node, Some(pin));
+        world.set_pin(CharacterId::first_in(0), node, Some(pin));
     }
     common::steps(&mut world, 2.0);
     let (force, power_w) = sum(&world.frame().characters[0], |spent| spent.pin);
@@ -56,16 +56,16 @@ fn pins_that_carry_a_body_spend_its_weight_and_no_power() {
 }
 
 /// A body over a plank of 60 kg that its pins push off from; they hold it `ahead_m` ahead of where it is.
-fn over_a_plank(gravity_m_s2: f64, ahead_m: f64) -> (World, usize) {
+fn over_a_plank(gravity_m_s2: f64, ahead_m: f64) -> (World, PropId) {
     let mut world = floating(gravity_m_s2);
     let plank = Solid::new(Form::Box { size_m: DVec3::new(2.0, 0.1, 2.0) });
     let plank = PropSpec::new(plank, Motion::Dynamic { mass_kg: 60.0 }, DVec3::Y * -0.5);
     let plank = world.add_prop(plank).unwrap();
-    world.set_reaction_body(0, Some(plank));
+    world.set_reaction_body(CharacterId::first_in(0), Some(plank));
     for (node, position) in Node::ALL.into_iter().zip(standing(&adult()).positions(&adult())) {
         let position = position + DVec3::Z * ahead_m;
         let pin = Pin { position, stiffness: 160.0, damping: 25.0, gravity_share: 1.0, ..Pin::LOOSE };
-        world.set_pin(0, node, Some(pin));
+        world.set_pin(CharacterId::first_in(0), node, Some(pin));
     }
     (world, plank)
 }
@@ -75,7 +75,7 @@ fn a_footing_goes_back_by_what_its_pins_push_the_body_ahead() {
     let (mut world, plank) = over_a_plank(0.0, 0.05);
     let body_before = world.frame().characters[0].centre_of_mass.z;
     common::steps(&mut world, 1.0);
-    let (body, prop) = (&world.frame().characters[0], &world.frame().props[plank]);
+    let (body, prop) = (&world.frame().characters[0], &world.frame().props[plank.slot()]);
     let momentum = body.centre_velocity * 80.0 + prop.velocity * 60.0;
     let (ahead, back) = ((body.centre_of_mass.z - body_before) * 80.0, prop.centre.z * 60.0);
     assert!(ahead > 3.0 && (ahead + back).abs() < 0.2, "{ahead} kg m ahead, {back} back");
@@ -90,7 +90,7 @@ fn a_footing_bears_the_body_that_its_pins_carry() {
         let lift_n = if step < 120 { (80.0 + 60.0) * 9.81 } else { 60.0 * 9.81 };
         world.push_prop(plank, DVec3::Y * lift_n, None);
         world.step();
-        let fell_m = -0.5 - world.frame().props[plank].centre.y;
+        let fell_m = -0.5 - world.frame().props[plank.slot()].centre.y;
         match step {
             // Late by two steps, it has begun to rise at 6 cm/s.
             0..120 => assert!(fell_m.abs() < 0.05, "{fell_m}"),
@@ -105,13 +105,13 @@ fn a_footing_bears_the_body_that_its_pins_carry() {
 fn the_work_of_a_pin_is_the_energy_that_the_body_gains() {
     let mut world = floating(0.0);
     let far = Pin { position: DVec3::new(0.0, 1.2, 50.0), stiffness: 1e3, max_force_n: 100.0, ..Pin::LOOSE };
-    world.set_pin(0, Node::Chest, Some(far));
+    world.set_pin(CharacterId::first_in(0), Node::Chest, Some(far));
     let (mut work_j, step_secs) = (0.0, world.settings().step_secs());
     for _ in 0..120 {
         world.step();
         work_j += sum(&world.frame().characters[0], |spent| spent.pin).1 * step_secs;
     }
-    let gained_j = world.energy_j(0);
+    let gained_j = world.energy_j(CharacterId::first_in(0));
     // Limp joints rub, as the arms and legs that are left behind turn.
     let share = gained_j / work_j;
     assert!(gained_j > 10.0 && (0.8..1.005).contains(&share), "{work_j} J of work, {gained_j} J gained");
@@ -120,7 +120,7 @@ fn the_work_of_a_pin_is_the_energy_that_the_body_gains() {
 #[test]
 fn a_part_that_physics_does_not_move_bears_what_hangs_from_it() {
     let mut world = floating(9.81);
-    world.set_forces(0, Node::Hips, false);
+    world.set_forces(CharacterId::first_in(0), Node::Hips, false);
     settle(&mut world);
     let held = world.frame().characters[0].external[Node::Hips.index()].held;
     // The joints' impulses are those of the last sub-step.
@@ -137,8 +137,8 @@ fn a_hold_on_a_wall_bears_who_hangs_from_it_and_a_hold_on_a_ball_is_no_help_from
     let right = world.frame().characters[0].part(Node::RightHand).centre;
     let ball = PropSpec::new(solid, Motion::Dynamic { mass_kg: 1.0 }, right + DVec3::Y * -0.1);
     let ball = world.add_prop(ball).unwrap();
-    let held = |node: Node, prop: usize| Held {
-        character: 0,
+    let held = |node: Node, prop: PropId| Held {
+        character: CharacterId::first_in(0),
         node,
         object: Entity::Prop(prop),
         soft: false,
@@ -146,7 +146,7 @@ fn a_hold_on_a_wall_bears_who_hangs_from_it_and_a_hold_on_a_ball_is_no_help_from
     };
     world.attach(held(Node::LeftHand, wall));
     world.attach(held(Node::RightHand, ball));
-    common::hold(&mut world, 0, 4.0);
+    common::hold(&mut world, CharacterId::first_in(0), 4.0);
     // It swings by its hand: the mean counts.
     let (mut bears_n, steps) = (0.0, 2400);
     for _ in 0..steps {
@@ -166,8 +166,14 @@ fn every_step_of_a_soft_hold_tells_the_force_that_it_bears() {
     let solid = Solid::new(Form::Ball { radius_m: 0.05 });
     let wall = world.add_prop(PropSpec::new(solid, Motion::Fixed, hand + DVec3::Y * 0.1)).unwrap();
     let object = Entity::Prop(wall);
-    world.attach(Held { character: 0, node: Node::LeftHand, object, soft: true, break_force_n: None });
-    common::hold(&mut world, 0, 4.0);
+    world.attach(Held {
+        character: CharacterId::first_in(0),
+        node: Node::LeftHand,
+        object,
+        soft: true,
+        break_force_n: None,
+    });
+    common::hold(&mut world, CharacterId::first_in(0), 4.0);
     common::steps(&mut world, 20.0);
     let mut before = world.frame().characters[0].centre_velocity;
     for step in 0..240 {
@@ -186,9 +192,9 @@ fn every_step_of_a_soft_hold_tells_the_force_that_it_bears() {
 #[test]
 fn a_plane_takes_up_what_pushes_across_it() {
     let mut world = floating(0.0);
-    world.hold_to_plane(0, DVec3::Z);
+    world.hold_to_plane(CharacterId::first_in(0), DVec3::Z);
     for _ in 0..60 {
-        world.push_part(0, Node::Chest, DVec3::X * 100.0, None);
+        world.push_part(CharacterId::first_in(0), Node::Chest, DVec3::X * 100.0, None);
         world.step();
     }
     let (force, power_w) = sum(&world.frame().characters[0], |spent| spent.held);

@@ -4,24 +4,25 @@
 
 use glam::DVec3;
 use sinew_world::{
-    Aim, Entity, Form, Motion, Motor, PropJointKind, PropJointSpec, PropSpec, Solid, SpecError, World, WorldSettings,
+    Aim, Entity, Form, Motion, Motor, PropId, PropJointKind, PropJointSpec, PropSpec, Solid, SpecError, World,
+    WorldSettings,
 };
 
 fn empty(gravity_m_s2: f64) -> World {
     World::new(WorldSettings { floor: None, gravity_m_s2, ..WorldSettings::default() })
 }
 
-fn ball(world: &mut World, position: DVec3, mass_kg: f64) -> usize {
+fn ball(world: &mut World, position: DVec3, mass_kg: f64) -> PropId {
     let solid = Solid::new(Form::Ball { radius_m: 0.1 });
     world.add_prop(PropSpec::new(solid, Motion::Dynamic { mass_kg }, position)).unwrap()
 }
 
-fn bar(world: &mut World, position: DVec3) -> usize {
+fn bar(world: &mut World, position: DVec3) -> PropId {
     let solid = Solid::new(Form::Box { size_m: DVec3::new(0.6, 0.05, 0.1) });
     world.add_prop(PropSpec::new(solid, Motion::Dynamic { mass_kg: 2.0 }, position)).unwrap()
 }
 
-fn with_ground(prop: usize, at: DVec3, kind: PropJointKind) -> PropJointSpec {
+fn with_ground(prop: PropId, at: DVec3, kind: PropJointKind) -> PropJointSpec {
     PropJointSpec {
         between: [Entity::Floor, Entity::Prop(prop)],
         anchors: [at; 2],
@@ -45,9 +46,9 @@ fn a_pendulum_swings_with_the_period_of_its_length() {
     world.add_prop_joint(with_ground(bob, DVec3::ZERO, PropJointKind::Ball)).unwrap();
     let mut crossings = Vec::new();
     for _ in 0..960 {
-        let before = world.frame().props[bob].position.x;
+        let before = world.frame().props[bob.slot()].position.x;
         world.step();
-        if before > 0.0 && world.frame().props[bob].position.x <= 0.0 {
+        if before > 0.0 && world.frame().props[bob.slot()].position.x <= 0.0 {
             crossings.push(world.frame().time_secs);
         }
     }
@@ -64,7 +65,7 @@ fn a_rope_holds_at_its_length_and_pulls_nothing_before() {
     rope.anchors[1] = DVec3::new(0.0, -0.5, 0.0);
     let rope = world.add_prop_joint(rope).unwrap();
     step_secs(&mut world, 0.2);
-    let fallen = -0.5 - world.frame().props[load].position.y;
+    let fallen = -0.5 - world.frame().props[load.slot()].position.y;
     assert!((fallen - 0.5 * 9.81 * 0.2 * 0.2).abs() < 0.01, "{fallen}: free while the rope is slack");
     step_secs(&mut world, 3.0);
     let length = world.prop_joint(rope).place;
@@ -109,7 +110,7 @@ fn a_spring_stretches_by_weight_over_stiffness() {
     spring.anchors[1] = DVec3::new(0.0, -1.0, 0.0);
     world.add_prop_joint(spring).unwrap();
     step_secs(&mut world, 5.0);
-    let stretch = -1.0 - world.frame().props[load].position.y;
+    let stretch = -1.0 - world.frame().props[load.slot()].position.y;
     assert!((stretch - 2.0 * 9.81 / 200.0).abs() < 1e-3, "{stretch}");
 }
 
@@ -122,13 +123,13 @@ fn a_hinge_turns_with_its_motors_speed_for_ever() {
     hinge.motor = Some(Motor { aim: Aim::Speed(5.0), strength: 10.0 });
     let hinge = world.add_prop_joint(hinge).unwrap();
     step_secs(&mut world, 3.0);
-    let spin = world.frame().props[wheel].angular_velocity;
+    let spin = world.frame().props[wheel.slot()].angular_velocity;
     assert!((spin - DVec3::Z * 5.0).length() < 0.05, "{spin}");
     assert!((world.prop_joint(hinge).speed - 5.0).abs() < 0.05);
     world.set_prop_motor(hinge, None);
     step_secs(&mut world, 1.0);
     // It coasts: nothing brakes it.
-    assert!((world.frame().props[wheel].angular_velocity.z - 5.0).abs() < 0.1);
+    assert!((world.frame().props[wheel.slot()].angular_velocity.z - 5.0).abs() < 0.1);
 }
 
 #[test]
@@ -140,7 +141,7 @@ fn a_motor_is_no_stronger_than_it_is() {
     world.add_prop_joint(hinge).unwrap();
     step_secs(&mut world, 1.0);
     let inertia = 2.0 * (0.6 * 0.6 + 0.05 * 0.05) / 12.0;
-    let speed = world.frame().props[wheel].angular_velocity.z;
+    let speed = world.frame().props[wheel.slot()].angular_velocity.z;
     assert!((speed - 0.5 / inertia).abs() < 0.02 * speed, "{speed}, {}", 0.5 / inertia);
 }
 
@@ -171,7 +172,7 @@ fn a_slider_moves_along_its_axis_alone() {
     step_secs(&mut world, 0.2);
     assert!((world.prop_joint(slider).speed - 1.0).abs() < 0.02);
     step_secs(&mut world, 1.0);
-    let place = world.frame().props[drawer].position;
+    let place = world.frame().props[drawer.slot()].position;
     assert!((place - DVec3::Z * 0.4).length() < 0.01, "{place}");
 }
 
@@ -184,7 +185,7 @@ fn what_is_cut_is_free() {
     assert!(world.cut_prop_joint(joint));
     assert!(!world.cut_prop_joint(joint), "there is nothing left to cut");
     step_secs(&mut world, 1.0);
-    assert!(world.frame().props[bob].position.y < -5.0);
+    assert!(world.frame().props[bob.slot()].position.y < -5.0);
     assert!(!world.prop_joint(joint).is_whole);
 }
 
@@ -195,7 +196,7 @@ fn joints_that_are_none_are_refused() {
     let good = with_ground(bob, DVec3::ZERO, PropJointKind::Ball);
     let mut specs = vec![
         PropJointSpec { between: [Entity::Prop(bob); 2], ..good.clone() },
-        PropJointSpec { between: [Entity::Prop(7), Entity::Floor], ..good.clone() },
+        PropJointSpec { between: [Entity::Prop(PropId::first_in(7)), Entity::Floor], ..good.clone() },
         PropJointSpec { anchors: [DVec3::NAN; 2], ..good.clone() },
         PropJointSpec { motor: Some(Motor { aim: Aim::Speed(1.0), strength: 1.0 }), ..good.clone() },
         PropJointSpec { break_force_n: Some(f64::NAN), ..good.clone() },

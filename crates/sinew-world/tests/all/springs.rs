@@ -6,7 +6,7 @@ use crate::common;
 use crate::common::{adult, floor_impulse, hold, spec, standing, steps};
 use glam::DVec3;
 use sinew_body::humanoid::{Node, exp, log};
-use sinew_world::{Drive, Pin, World, WorldSettings};
+use sinew_world::{CharacterId, Drive, Pin, World, WorldSettings};
 
 fn floating() -> World {
     let body = adult();
@@ -30,7 +30,11 @@ fn no_gain_that_is_accepted_makes_a_body_explode() {
             world.add_character(spec(&body, standing(&body))).unwrap();
             for node in Node::ALL {
                 let bend = if common::is_hinge(node) { DVec3::X * 0.5 } else { DVec3::new(-0.3, 0.2, 0.3) };
-                world.set_drive(0, node, Drive { rotation: exp(bend), stiffness, damping, ..Drive::limp(0.0) });
+                world.set_drive(
+                    CharacterId::first_in(0),
+                    node,
+                    Drive { rotation: exp(bend), stiffness, damping, ..Drive::limp(0.0) },
+                );
             }
             let (mut peak, mut gap): (f64, f64) = (0.0, 0.0);
             for _ in 0..240 {
@@ -54,9 +58,9 @@ fn no_gain_that_is_accepted_makes_a_body_explode() {
 #[test]
 fn a_joint_comes_to_its_wanted_turn_and_stays() {
     let mut world = floating();
-    hold(&mut world, 0, 4.0);
+    hold(&mut world, CharacterId::first_in(0), 4.0);
     let wanted = exp(DVec3::X * -1.2);
-    let inertia = world.outboard_inertia(0, Node::LeftLowerArm);
+    let inertia = world.outboard_inertia(CharacterId::first_in(0), Node::LeftLowerArm);
     let omega = std::f64::consts::TAU * 4.0;
     let drive = Drive {
         rotation: wanted,
@@ -64,7 +68,7 @@ fn a_joint_comes_to_its_wanted_turn_and_stays() {
         damping: 2.0 * inertia * omega,
         ..Drive::limp(0.0)
     };
-    world.set_drive(0, Node::LeftLowerArm, drive);
+    world.set_drive(CharacterId::first_in(0), Node::LeftLowerArm, drive);
     steps(&mut world, 2.0);
     let pose = world.frame().characters[0].pose();
     let error = log(pose.local(Node::LeftLowerArm) * wanted.conjugate()).length().to_degrees();
@@ -80,12 +84,12 @@ fn a_spring_under_a_load_sags_by_load_over_stiffness() {
         let mut world = World::new(WorldSettings { floor: None, solver_sweeps, ..WorldSettings::default() });
         let pose = standing(&body);
         world.add_character(spec(&body, pose)).unwrap();
-        hold(&mut world, 0, 20.0);
+        hold(&mut world, CharacterId::first_in(0), 20.0);
         pin_hips(&mut world, pose.hips_position);
         let stiffness = 300.0;
         let wanted = exp(DVec3::X * -std::f64::consts::FRAC_PI_2);
         world.set_drive(
-            0,
+            CharacterId::first_in(0),
             Node::LeftUpperArm,
             Drive { rotation: wanted, stiffness, damping: 30.0, ..Drive::limp(0.0) },
         );
@@ -116,7 +120,7 @@ fn pin_hips(world: &mut World, position: DVec3) {
         gravity_share: 1.0,
         ..Pin::LOOSE
     };
-    world.set_pin(0, Node::Hips, Some(pin));
+    world.set_pin(CharacterId::first_in(0), Node::Hips, Some(pin));
 }
 
 #[test]
@@ -139,7 +143,7 @@ fn pins_carry_a_body_at_any_gain_without_exploding() {
                     max_force_n: 1e5,
                     ..Pin::LOOSE
                 };
-                world.set_pin(0, node, Some(pin));
+                world.set_pin(CharacterId::first_in(0), node, Some(pin));
             }
             let mut peak: f64 = 0.0;
             for _ in 0..480 {
@@ -168,7 +172,7 @@ fn a_pin_pulls_no_harder_than_its_largest_force() {
         max_force_n: 200.0,
         ..Pin::LOOSE
     };
-    world.set_pin(0, Node::Chest, Some(far));
+    world.set_pin(CharacterId::first_in(0), Node::Chest, Some(far));
     steps(&mut world, 0.5);
     // 200 N on 80 kg for half a second, hardly turned by the little that the chest rises or sinks.
     let speed = world.frame().characters[0].centre_velocity.length();
@@ -180,12 +184,12 @@ fn a_stiff_body_stands_and_the_floor_bears_its_weight() {
     let body = adult();
     let mut world = World::new(WorldSettings::default());
     world.add_character(spec(&body, standing(&body))).unwrap();
-    hold(&mut world, 0, 3.0);
+    hold(&mut world, CharacterId::first_in(0), 3.0);
     steps(&mut world, 2.0);
     let mut borne = 0.0;
     for _ in 0..240 {
         world.step();
-        borne += floor_impulse(&world, 0);
+        borne += floor_impulse(&world, CharacterId::first_in(0));
     }
     let weight = body.mass_kg() * 9.81;
     // Over a second its sway averages out.
@@ -193,14 +197,14 @@ fn a_stiff_body_stands_and_the_floor_bears_its_weight() {
     assert!(world.frame().characters[0].parts[0].position.y > 0.95 * standing(&body).hips_position.y);
     // Resting contacts hold still.
     assert!(fastest(&world) < 0.01, "{}", fastest(&world));
-    assert!(!world.is_asleep(0), "what springs hold stays awake");
+    assert!(!world.is_asleep(CharacterId::first_in(0)), "what springs hold stays awake");
 }
 
 #[test]
 fn a_drive_follows_a_turning_target_without_lag_when_it_is_told_the_velocity() {
     let mut world = floating();
-    hold(&mut world, 0, 6.0);
-    let inertia = world.outboard_inertia(0, Node::RightLowerArm);
+    hold(&mut world, CharacterId::first_in(0), 6.0);
+    let inertia = world.outboard_inertia(CharacterId::first_in(0), Node::RightLowerArm);
     let omega = std::f64::consts::TAU * 6.0;
     let (stiffness, damping) = (inertia * omega * omega, 2.0 * inertia * omega);
     for (told, largest) in [(true, 1.0), (false, 90.0)] {
@@ -211,7 +215,7 @@ fn a_drive_follows_a_turning_target_without_lag_when_it_is_told_the_velocity() {
             let speed = if told { -3.0 * libm::sin(time * 6.0) } else { 0.0 };
             let rotation = exp(DVec3::X * angle);
             let drive = Drive { rotation, velocity: DVec3::X * speed, stiffness, damping, torque: DVec3::ZERO };
-            world.set_drive(0, Node::RightLowerArm, drive);
+            world.set_drive(CharacterId::first_in(0), Node::RightLowerArm, drive);
             world.step();
             if step > 120 {
                 let local = world.frame().characters[0].pose().local(Node::RightLowerArm);
@@ -231,7 +235,7 @@ fn a_drive_follows_a_turning_target_without_lag_when_it_is_told_the_velocity() {
 fn a_torque_turns_a_part_against_its_parent() {
     let mut world = floating();
     for _ in 0..20 {
-        world.set_drive(0, Node::Head, Drive { torque: DVec3::Y * 2.0, ..Drive::limp(0.0) });
+        world.set_drive(CharacterId::first_in(0), Node::Head, Drive { torque: DVec3::Y * 2.0, ..Drive::limp(0.0) });
         world.step();
     }
     let frame = &world.frame().characters[0];
@@ -239,6 +243,6 @@ fn a_torque_turns_a_part_against_its_parent() {
     let nod = frame.part(Node::Head).angular_velocity - frame.part(Node::Neck).angular_velocity;
     assert!(nod.y > 0.5, "{nod}");
     // The parent takes the opposite: nothing turns as a whole.
-    let (momentum, spin) = common::momenta(&world, 0);
+    let (momentum, spin) = common::momenta(&world, CharacterId::first_in(0));
     assert!(momentum.length() < 1e-9 && spin.length() < 1e-3, "{momentum} {spin}");
 }

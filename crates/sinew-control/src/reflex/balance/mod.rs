@@ -103,7 +103,7 @@ impl Reflex for Balance {
     }
 
     fn step(&mut self, sense: &Sense, target: &mut Wanted) {
-        if sense.gravity_m_s2 < 0.1 || sense.frame.characters.len() <= sense.own {
+        if sense.gravity_m_s2 < 0.1 || sense.frame.character(sense.own).is_none() {
             return;
         }
         stance::follow_loads(sense, &mut self.load_n);

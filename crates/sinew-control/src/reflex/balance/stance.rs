@@ -6,7 +6,7 @@ use crate::Wanted;
 use crate::reflex::Sense;
 use glam::{DVec2, DVec3};
 use sinew_body::humanoid::{LEGS, Node};
-use sinew_world::Entity;
+use sinew_world::{CharacterId, Entity};
 
 /// A foot so much higher than the lower one is lifted, whatever the pose wants \[m\].
 const LIFTED_M: f64 = 0.12;
@@ -114,7 +114,7 @@ pub(super) fn follow_bearing(
     *bearing
 }
 
-fn is_own(entity: Entity, own: usize) -> bool {
+fn is_own(entity: Entity, own: CharacterId) -> bool {
     matches!(entity, Entity::Part(character, _) if character == own)
 }
 

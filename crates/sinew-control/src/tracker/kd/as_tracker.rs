@@ -4,7 +4,7 @@ use super::KdTracker;
 use crate::Wanted;
 use crate::tracker::{Honours, TakeOver, Tracker, TrackerKind, Wants};
 use sinew_body::humanoid::{Node, Pose};
-use sinew_world::World;
+use sinew_world::{CharacterId, World};
 
 /// How long a body takes to come to what is wanted when the tracker begins in the middle of a run \[s\].
 const TAKE_OVER_SECS: f64 = 0.5;
@@ -32,13 +32,13 @@ impl Tracker for KdTracker {
     }
 
     /// At the world's start the body moves as the motion does that it is in; later it begins where and as it is.
-    fn take_over(&mut self, start: &TakeOver, world: &mut World, character: usize) {
+    fn take_over(&mut self, start: &TakeOver, world: &mut World, character: CharacterId) {
         if world.frame().step > 0 {
             self.begin_where_it_is(TAKE_OVER_SECS);
             return;
         }
         let Some(motion) = start.motion else { return };
-        let Some(now) = world.frame().characters.get(character).map(|frame| frame.pose()) else { return };
+        let Some(now) = world.frame().character(character).map(|frame| frame.pose()) else { return };
         let frame_secs = self.clock.time_step_secs();
         let before = led_to(&motion(0.0), &motion(frame_secs));
         let step_secs = world.settings().step_secs();
@@ -47,7 +47,7 @@ impl Tracker for KdTracker {
         self.launch(world, character);
     }
 
-    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: usize) {
+    fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId) {
         if self.wants_pose() {
             self.wanted(&wanted.pose);
         }
@@ -59,7 +59,7 @@ impl Tracker for KdTracker {
         self.physics_step(world, character);
     }
 
-    fn release(&mut self, world: &mut World, character: usize) {
+    fn release(&mut self, world: &mut World, character: CharacterId) {
         world.set_limp(character);
         world.set_reaction_body(character, None);
         world.set_passes_own(character, [0; Node::COUNT]);

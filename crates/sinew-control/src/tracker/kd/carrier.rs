@@ -1,12 +1,12 @@
 //! A moving prop that carries a performer's whole stage along.
 
 use glam::{DQuat, DVec3};
-use sinew_world::World;
+use sinew_world::{PropId, World};
 
 /// What a prop has moved and turned since the character stepped on it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Carrier {
-    prop: usize,
+    prop: PropId,
     start: (DVec3, DQuat),
 }
 
@@ -24,19 +24,19 @@ pub(super) struct Carried {
 sinew_snapshot::snapshot!(Carrier { prop, start });
 
 impl Carrier {
-    pub(super) fn new(world: &World, prop: usize) -> Option<Carrier> {
-        let state = world.frame().props.get(prop)?;
+    pub(super) fn new(world: &World, prop: PropId) -> Option<Carrier> {
+        let state = world.frame().prop(prop)?;
         Some(Carrier { prop, start: (state.position, state.rotation) })
     }
 
     /// Its number in the world.
-    pub(super) fn prop(&self) -> usize {
+    pub(super) fn prop(&self) -> PropId {
         self.prop
     }
 
     /// The prop as it is now.
     pub(super) fn now(&self, world: &World) -> Option<Carried> {
-        let state = world.frame().props.get(self.prop)?;
+        let state = world.frame().prop(self.prop)?;
         Some(Carried {
             start: self.start.0,
             place: state.position,

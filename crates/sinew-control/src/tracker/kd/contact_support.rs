@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 use sinew_body::humanoid::Node;
-use sinew_world::{Entity, World};
+use sinew_world::{CharacterId, Entity, PropId, World};
 
 /// Share of the weight that is all that a seat can bear: the legs stand on the ground \[1\].
 const ALL_OF_IT: f64 = 0.55;
@@ -38,7 +38,7 @@ sinew_snapshot::snapshot!(ContactSupport { force_n, share, low_m });
 
 impl ContactSupport {
     /// Feels what bore the body in the world's last step. `ground`: a prop that counts as such; `hips_m`: height of the wanted hips.
-    pub(super) fn feel(&mut self, world: &World, character: usize, ground: Option<usize>, hips_m: f64) {
+    pub(super) fn feel(&mut self, world: &World, character: CharacterId, ground: Option<PropId>, hips_m: f64) {
         let step_secs = world.settings().step_secs();
         let mass_kg = world.body(character).map_or(80.0, |body| body.mass_kg());
         let weight_n = mass_kg * world.settings().gravity_m_s2.max(0.1);
@@ -64,7 +64,7 @@ impl ContactSupport {
 }
 
 /// Upward force on trunk, arms and thighs from all that is neither ground nor held \[N\].
-fn borne_n(world: &World, character: usize, ground: Option<usize>) -> f64 {
+fn borne_n(world: &World, character: CharacterId, ground: Option<PropId>) -> f64 {
     let is_ground = |entity: Entity| entity == Entity::Floor || ground.is_some_and(|prop| entity == Entity::Prop(prop));
     let holds = |entity: Entity| world.held().any(|held| held.character == character && held.object == entity);
     let leans = |entity: Entity| matches!(entity, Entity::Part(owner, node) if owner == character && !stands(node));

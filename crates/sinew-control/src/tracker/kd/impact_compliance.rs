@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 use sinew_body::humanoid::Node;
-use sinew_world::{Entity, Frame, World};
+use sinew_world::{CharacterId, Entity, Frame, World};
 
 /// Impulse at which the trunk begins to give way, and at which it gives way in full, for a body of 80 kg \[N s\].
 const FROM_TO_N_S: [f64; 2] = [3.0, 6.0];
@@ -36,7 +36,7 @@ sinew_snapshot::snapshot!(ImpactCompliance { load, impulse, share });
 
 impl ImpactCompliance {
     /// Feels what pushed and touched the trunk in the world's last step.
-    pub(super) fn feel(&mut self, world: &World, character: usize, mass_kg: f64, step_secs: f64) {
+    pub(super) fn feel(&mut self, world: &World, character: CharacterId, mass_kg: f64, step_secs: f64) {
         let force = force_on_trunk(world, character, step_secs);
         let force = if force.is_finite() { force } else { DVec3::ZERO };
         self.impulse += (force - self.load) * step_secs;
@@ -65,7 +65,7 @@ impl ImpactCompliance {
     }
 }
 
-fn force_on_trunk(world: &World, character: usize, step_secs: f64) -> DVec3 {
+fn force_on_trunk(world: &World, character: CharacterId, step_secs: f64) -> DVec3 {
     let frame: &Frame = world.frame();
     let pushes = world.pushes(character).map_or(DVec3::ZERO, |pushes| {
         Node::ALL.into_iter().filter(|node| is_trunk(*node)).map(|node| pushes[node.index()]).sum()

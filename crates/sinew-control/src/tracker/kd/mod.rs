@@ -33,7 +33,7 @@ use inertial_blend::InertialBlend;
 use ramp::Ramp;
 use self_collision::SelfCollision;
 use sinew_body::humanoid::{Body, Node, Pose, log};
-use sinew_world::{Drive, Pin, World};
+use sinew_world::{CharacterId, Drive, Pin, PropId, World};
 use transition::Transition;
 
 /// Follows wanted poses with forces on every part and torques in every joint.
@@ -64,7 +64,7 @@ use transition::Transition;
 ///     tracker.physics_step(&mut world, character);
 ///     world.step();
 /// }
-/// assert!((world.frame().characters[character].parts[0].position - pose.hips_position).length() < 1e-3);
+/// assert!((world.frame().characters[character.slot()].parts[0].position - pose.hips_position).length() < 1e-3);
 /// # Ok::<(), sinew_world::SpecError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -196,7 +196,7 @@ impl KdTracker {
 
     /// The whole wanted motion is carried along by a prop from now on, as by a car's floor, or by the ground again. Where physics moves
     /// the prop, what the pins give the body they take from it.
-    pub fn stand_on(&mut self, world: &World, prop: Option<usize>) {
+    pub fn stand_on(&mut self, world: &World, prop: Option<PropId>) {
         self.carrier = prop.and_then(|prop| Carrier::new(world, prop));
     }
 
@@ -277,7 +277,7 @@ impl KdTracker {
     }
 
     /// Sets pins and drives of a character for the world's next step.
-    pub fn physics_step(&mut self, world: &mut World, character: usize) {
+    pub fn physics_step(&mut self, world: &mut World, character: CharacterId) {
         let step_secs = world.settings().step_secs();
         let begins = self.clock.is_due();
         if begins {
@@ -308,7 +308,7 @@ impl KdTracker {
             ramp.advance(step_secs);
         }
         let next = Instant::of(body, &posed);
-        if begins && let Some(frame) = world.frame().characters.get(character) {
+        if begins && let Some(frame) = world.frame().character(character) {
             let masks = self.self_collision.look(&next, frame);
             world.set_passes_own(character, masks);
         }
@@ -332,8 +332,8 @@ impl KdTracker {
     }
 
     /// The body is wanted where it is now, as it moves now.
-    fn slide_from_body(&mut self, world: &World, character: usize, over_secs: f64, step_secs: f64) {
-        let Some(frame) = world.frame().characters.get(character) else { return };
+    fn slide_from_body(&mut self, world: &World, character: CharacterId, over_secs: f64, step_secs: f64) {
+        let Some(frame) = world.frame().character(character) else { return };
         let (mut pose, hips) = (frame.pose(), frame.part(Node::Hips));
         let mut velocity = hips.velocity_at(hips.position);
         if let Some(carried) = self.carrier.and_then(|carrier| carrier.now(world)) {
@@ -351,7 +351,7 @@ impl KdTracker {
     }
 
     /// Whether something hit the trunk, and whether something else than the ground bears the body.
-    fn feel(&mut self, world: &World, character: usize, step_secs: f64) {
+    fn feel(&mut self, world: &World, character: CharacterId, step_secs: f64) {
         let is_held = self.pins.value() * self.carries.value() >= 1.0;
         match world.body(character).filter(|_| self.settings.yields && is_held) {
             Some(body) => self.impact_compliance.feel(world, character, body.mass_kg(), step_secs),
@@ -366,7 +366,7 @@ impl KdTracker {
     }
 
     /// `progress` of the way: legs are firmer than the rest when they stand, not while they come there.
-    fn hold(&self, world: &mut World, character: usize, next: &Instant, progress: f64, step_secs: f64) {
+    fn hold(&self, world: &mut World, character: CharacterId, next: &Instant, progress: f64, step_secs: f64) {
         let Some(outboard) = world.outboard_inertias(character).copied() else { return };
         let carried = self.carrier.and_then(|carrier| carrier.now(world));
         let [k_p, d_p, k_q, d_q] = self.gains.map(|gain| gain.value());
@@ -458,7 +458,7 @@ impl KdTracker {
     }
 
     /// Gives the body the velocities of the wanted motion, as if it had followed it all along: for a body that begins in it.
-    pub fn launch(&self, world: &mut World, character: usize) {
+    pub fn launch(&self, world: &mut World, character: CharacterId) {
         let step_secs = world.settings().step_secs();
         let velocities: [(DVec3, DVec3); Node::COUNT] = std::array::from_fn(|at| {
             let shift = self.now.centres[at] - self.before.centres[at];

@@ -6,7 +6,7 @@ use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, log};
 use sinew_control::tracker::{KdSettings, KdTracker};
 use sinew_motion::formats::{MotionFile, ReadOptions};
 use sinew_motion::{moves_from, resample};
-use sinew_world::{CharacterSpec, Entity, Surface, World, WorldSettings, hips_over_soles_m};
+use sinew_world::{CharacterId, CharacterSpec, Entity, Surface, World, WorldSettings, hips_over_soles_m};
 use std::path::Path;
 
 pub const HZ: f64 = 60.0;
@@ -119,7 +119,7 @@ impl Act {
         world.add_character(spec).expect("a character");
         let mut tracker = KdTracker::new(&performer.body, settings, 1.0 / HZ, &first);
         tracker.restart(&performer.body, &first, &second, world.settings().step_secs());
-        tracker.launch(&mut world, 0);
+        tracker.launch(&mut world, CharacterId::first_in(0));
         Act { performer: performer.clone(), world, tracker, frame: 1 }
     }
 
@@ -135,7 +135,7 @@ impl Act {
             self.frame += 1;
             self.tracker.wanted(self.performer.pose(self.frame));
         }
-        self.tracker.physics_step(&mut self.world, 0);
+        self.tracker.physics_step(&mut self.world, CharacterId::first_in(0));
     }
 
     /// Steps until a motion frame is over.
@@ -204,7 +204,8 @@ impl Following {
             }
             for (side, node) in [Node::LeftFoot, Node::RightFoot].into_iter().enumerate() {
                 let own = (centres[node.index()] - before[node.index()]).with_y(0.0).length() * HZ;
-                let touches = act.world.frame().are_touching(Entity::Floor, Entity::Part(0, node));
+                let touches =
+                    act.world.frame().are_touching(Entity::Floor, Entity::Part(CharacterId::first_in(0), node));
                 if touches && own < 0.25 {
                     found.skate_m_s[0] += (sole[side] - feet_before[side]).with_y(0.0).length() * HZ;
                     found.skate_m_s[1] += own;
@@ -278,7 +279,7 @@ impl Hit {
         let mut hit = Hit::default();
         for step in 0..end + steps(4.0) {
             if (begin..end).contains(&step) {
-                acts[0].world.push_part(0, node, impulse / HIT_SECS, None);
+                acts[0].world.push_part(CharacterId::first_in(0), node, impulse / HIT_SECS, None);
             }
             acts.iter_mut().for_each(Act::step);
             if step < begin {

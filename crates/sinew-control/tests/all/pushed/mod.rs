@@ -7,7 +7,7 @@ use sinew_body::humanoid::{Body, LEGS, Node, Pose, exp};
 use sinew_control::reflex::{Balance, BalanceSettings, Reflex, Sense};
 use sinew_control::tracker::{JointGain, PdTracker, Tracker as _};
 use sinew_control::{JointTarget, Wanted};
-use sinew_world::{CharacterSpec, Surface, World, WorldSettings, hips_over_soles_m};
+use sinew_world::{CharacterId, CharacterSpec, Surface, World, WorldSettings, hips_over_soles_m};
 
 /// When pushes begin \[s\]: the body has leant to where its weight rests.
 pub const PUSH_AT_SECS: f64 = 2.0;
@@ -98,14 +98,14 @@ impl Standing {
         let step_secs = self.world.settings().step_secs();
         let sense = Sense {
             frame: self.world.frame(),
-            own: 0,
+            own: CharacterId::first_in(0),
             body: &self.body,
             gains: self.tracker.gains(),
             step_secs,
             gravity_m_s2: self.world.settings().gravity_m_s2,
         };
         self.reflex.step(&sense, &mut self.target);
-        self.tracker.follow(&self.target, &mut self.world, 0);
+        self.tracker.follow(&self.target, &mut self.world, CharacterId::first_in(0));
         if let Some(push) = push {
             let (time, me) = (self.world.frame().time_secs, &self.world.frame().characters[0]);
             if time > PUSH_AT_SECS - 1e-9 && time < PUSH_AT_SECS + push.for_secs - 1e-9 {
@@ -114,7 +114,7 @@ impl Standing {
                     Place::Chest => (Node::Chest, me.part(Node::Chest).centre),
                 };
                 let force = push.direction() * (push.impulse_n_s / push.for_secs);
-                self.world.push_part(0, node, force, Some(point));
+                self.world.push_part(CharacterId::first_in(0), node, force, Some(point));
             }
         }
         self.world.step();

@@ -7,7 +7,9 @@ use sinew_control::tracker::ResponseTracker;
 use sinew_motion::formats::{MotionFile, ReadOptions};
 use sinew_motion::{find_cycle, repeat};
 use sinew_response::{Basis, Motion, Settings};
-use sinew_world::{CharacterSpec, Form, PropSpec, Solid, Surface, World, WorldSettings, hips_over_soles_m};
+use sinew_world::{
+    CharacterId, CharacterSpec, Form, PropSpec, Solid, Surface, World, WorldSettings, hips_over_soles_m,
+};
 
 /// A walk of a given number of strides.
 #[derive(Clone)]
@@ -100,7 +102,7 @@ impl Scene {
             self.frame += 1;
             self.tracker.wanted(self.walk.pose(self.frame));
         }
-        self.tracker.physics_step(&mut self.world, 0);
+        self.tracker.physics_step(&mut self.world, CharacterId::first_in(0));
         self.world.step();
     }
 

@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
-use sinew_world::{CharacterSpec, Drive, Entity, Surface, World, WorldSettings, hips_over_soles_m};
+use sinew_world::{CharacterId, CharacterSpec, Drive, Entity, Surface, World, WorldSettings, hips_over_soles_m};
 
 /// 80 kg, 1.7 m.
 pub fn adult() -> Body {
@@ -130,7 +130,7 @@ pub fn steps(world: &mut World, secs: f64) {
 }
 
 /// Springs on all joints of a character towards standing straight: frequency \[Hz\] of the outboard inertia, and ζ = 1.
-pub fn hold(world: &mut World, character: usize, frequency_hz: f64) {
+pub fn hold(world: &mut World, character: CharacterId, frequency_hz: f64) {
     let omega = std::f64::consts::TAU * frequency_hz;
     let body = world.body(character).unwrap().clone();
     for node in Node::ALL {
@@ -148,8 +148,8 @@ pub fn hold(world: &mut World, character: usize, frequency_hz: f64) {
 }
 
 /// How far the worst joint of a character is beyond its limit \[degrees\], and which.
-pub fn worst_excess_deg(world: &World, character: usize) -> (f64, Node) {
-    let pose = world.frame().characters[character].pose();
+pub fn worst_excess_deg(world: &World, character: CharacterId) -> (f64, Node) {
+    let pose = world.frame().characters[character.slot()].pose();
     let body = world.body(character).unwrap();
     let mut worst = (0.0, Node::Hips);
     for node in Node::ALL {
@@ -162,8 +162,8 @@ pub fn worst_excess_deg(world: &World, character: usize) -> (f64, Node) {
 }
 
 /// Momentum \[kg m/s\] and angular momentum about the centre of mass \[kg m²/s\].
-pub fn momenta(world: &World, character: usize) -> (DVec3, DVec3) {
-    let frame = &world.frame().characters[character];
+pub fn momenta(world: &World, character: CharacterId) -> (DVec3, DVec3) {
+    let frame = &world.frame().characters[character.slot()];
     let body = world.body(character).unwrap();
     let (mut linear, mut angular) = (DVec3::ZERO, DVec3::ZERO);
     for node in Node::ALL {
@@ -178,7 +178,7 @@ pub fn momenta(world: &World, character: usize) -> (DVec3, DVec3) {
 }
 
 /// Impulse that the floor gives a character in this step, upwards \[N s\].
-pub fn floor_impulse(world: &World, character: usize) -> f64 {
+pub fn floor_impulse(world: &World, character: CharacterId) -> f64 {
     world
         .frame()
         .contacts

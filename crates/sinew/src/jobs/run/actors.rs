@@ -44,9 +44,9 @@ pub struct LatencyReport {
 
 /// Every character that has a performer.
 pub(super) fn of(stage: &Stage) -> BTreeMap<String, ActorReport> {
-    let names = stage.cast().characters().iter().enumerate();
-    let reports = names.filter_map(|(index, name)| {
-        let source = stage.state_of(index)?.performance()?;
+    let names = stage.cast().characters().iter();
+    let reports = names.filter_map(|name| {
+        let source = stage.state_of(stage.cast().character(name)?)?.performance()?;
         let counters = source.counters();
         let report = ActorReport {
             received: counters.received,

@@ -2,6 +2,7 @@
 
 use crate::jobs::reach::{Instant, ReachMeter, ReachReport};
 use sinew_stage::Stage;
+use sinew_world::CharacterId;
 
 /// Looks at the reach that a character is about.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,7 +19,7 @@ const MAX_REACHES: usize = 1000;
 
 impl ReachWatch {
     /// Looks at the stage after a step, and keeps the last of the reports as it is now.
-    pub fn watch(&mut self, stage: &Stage, character: usize, reports: &mut Vec<ReachReport>) {
+    pub fn watch(&mut self, stage: &Stage, character: CharacterId, reports: &mut Vec<ReachReport>) {
         let spec = &stage.scene().stage;
         if !stage.frame().step.is_multiple_of(u64::from(spec.steps_per_frame())) {
             return;
@@ -29,7 +30,7 @@ impl ReachWatch {
             (self.number, self.meter) = (reach.number, ReachMeter::default());
             self.count += 1;
         }
-        let pose = stage.frame().characters[character].pose();
+        let pose = stage.frame().characters[character.slot()].pose();
         let now = Instant { reacher: reach.reacher, secs: reach.now_secs, goal: reach.goal, body, pose: &pose };
         self.meter.watch(&now, 1.0 / f64::from(spec.motion_hz));
         if self.count > MAX_REACHES {

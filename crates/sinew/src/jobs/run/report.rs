@@ -120,22 +120,22 @@ impl Observer for RunReport {
         use sinew_body::humanoid::Node;
         let frame = stage.frame();
         self.joint_gap_max_m = self.joint_gap_max_m.max(stage.world().largest_joint_gap_m());
-        for (index, character) in self.characters.values_mut().enumerate() {
-            let seen = &frame.characters[index];
+        for (character, id) in self.characters.values_mut().zip(&frame.character_ids) {
+            let Some((id, seen)) = id.and_then(|id| Some((id, frame.character(id)?))) else { continue };
             character.hips_height_min_m = character.hips_height_min_m.min(seen.parts[0].position.y);
             character.resets += u64::from(seen.was_reset);
             let step_secs = stage.world().settings().step_secs();
             character.meters[0].watch(seen, step_secs, |spent| spent.pin);
             character.meters[1].watch(seen, step_secs, |spent| spent.held);
-            character.reach.watch(stage, index, &mut character.reaches);
-            let is_own = |entity: Entity| matches!(entity, Entity::Part(owner, _) if owner == index);
+            character.reach.watch(stage, id, &mut character.reaches);
+            let is_own = |entity: Entity| matches!(entity, Entity::Part(owner, _) if owner == id);
             for contact in &frame.contacts {
                 if is_own(contact.a) != is_own(contact.b) && contact.a != Entity::Floor {
                     character.hit_impulse_max_n_s = character.hit_impulse_max_n_s.max(contact.impulse.length());
                 }
             }
             for (side, foot) in [Node::LeftFoot, Node::RightFoot].into_iter().enumerate() {
-                if frame.are_touching(Entity::Floor, Entity::Part(index, foot)) {
+                if frame.are_touching(Entity::Floor, Entity::Part(id, foot)) {
                     character.steps += u64::from(character.in_the_air[side] >= OFF_STEPS);
                     character.in_the_air[side] = 0;
                 } else {

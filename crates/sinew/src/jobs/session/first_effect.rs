@@ -38,12 +38,12 @@ pub fn first_effect(
     let mut without = Stage::new(take.to_scene(None)?, host)?;
     with.prescribe(take.commands.clone());
     without.prescribe(others);
-    let Some(place) = with.cast().character(character) else { return Ok(None) };
+    let Some(id) = with.cast().character(character) else { return Ok(None) };
     let last = take.steps.min(stamped.step + u64::from(take.physics_hz));
     for step in 1..=last {
         with.step();
         without.step();
-        if step > stamped.step && with.frame().characters[place] != without.frame().characters[place] {
+        if step > stamped.step && with.frame().character(id) != without.frame().character(id) {
             return Ok(Some(step));
         }
     }

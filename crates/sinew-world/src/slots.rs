@@ -1,0 +1,100 @@
+//! A list whose places are used again.
+
+use crate::id::Id;
+use std::marker::PhantomData;
+
+/// Values by slot. A value that is removed leaves its slot vacant; the next that is inserted takes the first vacant slot, under
+/// the slot's next generation.
+pub(crate) struct Slots<I, T> {
+    slots: Vec<Slot<T>>,
+    ids: PhantomData<I>,
+}
+
+struct Slot<T> {
+    /// Of the value that is there, or of the next.
+    generation: u32,
+    value: Option<T>,
+}
+
+impl<I: Id, T> Slots<I, T> {
+    pub const fn new() -> Slots<I, T> {
+        Slots { slots: Vec::new(), ids: PhantomData }
+    }
+
+    /// Number of slots, vacant ones too.
+    pub fn count(&self) -> usize {
+        self.slots.len()
+    }
+
+    /// The id that the next value will have.
+    pub fn next_id(&self) -> I {
+        let slot = self.slots.iter().position(|slot| slot.value.is_none()).unwrap_or(self.slots.len());
+        I::of(slot, self.slots.get(slot).map_or(0, |slot| slot.generation))
+    }
+
+    pub fn insert(&mut self, value: T) -> I {
+        let id = self.next_id();
+        let (slot, generation) = id.place();
+        let filled = Slot { generation, value: Some(value) };
+        match self.slots.get_mut(slot) {
+            Some(vacant) => *vacant = filled,
+            None => self.slots.push(filled),
+        }
+        id
+    }
+
+    pub fn remove(&mut self, id: I) -> Option<T> {
+        let (slot, generation) = id.place();
+        let slot = self.slots.get_mut(slot).filter(|slot| slot.generation == generation)?;
+        let value = slot.value.take()?;
+        slot.generation = slot.generation.wrapping_add(1);
+        Some(value)
+    }
+
+    pub fn get(&self, id: I) -> Option<&T> {
+        let (slot, generation) = id.place();
+        self.slots.get(slot).filter(|slot| slot.generation == generation)?.value.as_ref()
+    }
+
+    pub fn get_mut(&mut self, id: I) -> Option<&mut T> {
+        let (slot, generation) = id.place();
+        self.slots.get_mut(slot).filter(|slot| slot.generation == generation)?.value.as_mut()
+    }
+
+    /// All values with their ids, by slot.
+    pub fn iter(&self) -> impl Iterator<Item = (I, &T)> {
+        let slots = self.slots.iter().enumerate();
+        slots.filter_map(|(at, slot)| Some((I::of(at, slot.generation), slot.value.as_ref()?)))
+    }
+
+    /// All values, by slot.
+    pub fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        self.slots.iter_mut().filter_map(|slot| slot.value.as_mut())
+    }
+
+    /// Who is in a slot.
+    pub fn id_in(&self, slot: usize) -> Option<I> {
+        let found = self.slots.get(slot)?;
+        found.value.is_some().then(|| I::of(slot, found.generation))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Slots;
+    use crate::PropId;
+
+    #[test]
+    fn a_slot_is_used_again_and_the_old_id_means_nobody() {
+        let mut slots = Slots::<PropId, &str>::new();
+        let (one, other) = (slots.insert("one"), slots.insert("other"));
+        assert_eq!((one, other), (PropId::first_in(0), PropId::first_in(1)));
+        assert_eq!(slots.remove(one), Some("one"));
+        assert_eq!(slots.remove(one), None);
+        assert_eq!((slots.id_in(0), slots.count(), slots.iter().count()), (None, 2, 1));
+        let again = slots.insert("again");
+        assert_eq!(again, PropId::new(0, 1));
+        assert_eq!((slots.get(one), slots.get(again), slots.get(other)), (None, Some(&"again"), Some(&"other")));
+        assert_eq!(format!("{one} {again}"), "0 0.1");
+    }
+}
