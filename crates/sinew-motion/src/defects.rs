@@ -42,13 +42,13 @@ pub struct Defect {
 const FROZEN_SECS: f64 = 0.1;
 /// Maximum angular speed of a joint relative to its parent: a baseball pitcher's shoulder reaches 130 rad/s, everything
 /// else stays below 45.
-const FASTEST_TURN_RAD_S: f64 = 60.0;
+const MAX_TURN_RAD_S: f64 = 60.0;
 /// Maximum speed of the hips: the fastest sprint is 12.4 m/s.
-const FASTEST_TRAVEL_M_S: f64 = 13.0;
+const MAX_TRAVEL_M_S: f64 = 13.0;
 /// Maximum number of frames of a transition from the rest pose into the motion.
 const GLIDE_FRAMES: usize = 12;
 /// Maximum flight time: a jump of 0.9 m takes 0.86 s \[s\].
-const LONGEST_FLIGHT_SECS: f64 = 1.0;
+const MAX_FLIGHT_SECS: f64 = 1.0;
 /// Standing feet this far from Y = 0 are reported \[m\].
 const OFF_FLOOR_M: f64 = 0.03;
 /// Foot sliding within one stance that is reported \[m\].
@@ -129,7 +129,7 @@ fn jumps(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect
         let hips = world[humanoid.hips()].translation;
         if let Some(before) = before.replace(hips) {
             let speed = hips.distance(before) * fps;
-            if speed > FASTEST_TRAVEL_M_S {
+            if speed > MAX_TRAVEL_M_S {
                 defects.push(Defect {
                     kind: DefectKind::Jump,
                     frames: Some((frame - 1, frame)),
@@ -148,7 +148,7 @@ fn jumps(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect
             // A fast movement has fast neighbouring frames, a jump (there, or there and back) does not.
             let around = usual[at.saturating_sub(3)..(at + 4).min(usual.len())].to_vec();
             let neighbours = quantile(around, 0.5).unwrap_or(0.0);
-            if turn * fps > FASTEST_TURN_RAD_S || turn.to_degrees() > 20.0 && turn > 6.0 * neighbours {
+            if turn * fps > MAX_TURN_RAD_S || turn.to_degrees() > 20.0 && turn > 6.0 * neighbours {
                 let frame = from + at;
                 let text = format!(
                     "{part} ({:?}) turns {:.0}° from frame {frame} to {}",
@@ -185,7 +185,7 @@ fn feet(clip: &Clip, humanoid: &Humanoid, from: usize, defects: &mut Vec<Defect>
         .collect();
     for (first, last) in runs(&high) {
         let secs = (last + 1 - first) as f64 * clip.frame_time_secs();
-        if secs > LONGEST_FLIGHT_SECS {
+        if secs > MAX_FLIGHT_SECS {
             let text = format!("both feet float for {secs:.1} s, in frames {first} to {last}");
             defects.push(Defect { kind: DefectKind::FloatingFeet, frames: Some((first, last)), joint: None, text });
         }

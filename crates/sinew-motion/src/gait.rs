@@ -18,7 +18,7 @@ const MIN_STRIDE: f64 = 0.25;
 /// The other foot's moment comes at this share of the stride.
 const OTHER_FOOT: std::ops::RangeInclusive<f64> = 0.25..=0.75;
 /// Maximum difference between the ends of a cycle \[deg\].
-const LARGEST_GAP_DEG: f64 = 20.0;
+const MAX_GAP_DEG: f64 = 20.0;
 /// Maximum difference between the ends of a loop \[deg\].
 const LOOP_GAP_DEG: f64 = 3.0;
 /// Minimum autocorrelation of the legs for a cycle.
@@ -154,7 +154,7 @@ impl Legs {
         }
         let pose_gap_deg = pose_gap(clip, humanoid, first, last).to_degrees();
         let periodicity = self.periodicity(first, last);
-        let close = pose_gap_deg <= LARGEST_GAP_DEG && periodicity >= MIN_PERIODICITY;
+        let close = pose_gap_deg <= MAX_GAP_DEG && periodicity >= MIN_PERIODICITY;
         close.then_some(Cycle { first, last, period_secs, foot, pose_gap_deg, periodicity, stride_m })
     }
 

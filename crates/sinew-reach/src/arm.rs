@@ -43,7 +43,7 @@ const GOES_ON_SECS: f64 = 0.12;
 const RESTS_SECS: f64 = 0.4;
 
 /// Maximum speed with which a joint is taken over \[rad/s\].
-const FASTEST_RAD_S: f64 = 20.0;
+const MAX_SPEED_RAD_S: f64 = 20.0;
 
 impl Carried {
     fn rest(turn: DQuat) -> Carried {
@@ -73,7 +73,7 @@ impl Carried {
     fn take_over(&mut self, now: f64, turns: [DQuat; 3], moment: f64) {
         let [before, at, after] = turns;
         let (back, on) = (log(at.conjugate() * before), log(at.conjugate() * after));
-        let velocity = ((on - back) / (2.0 * moment)).clamp_length_max(FASTEST_RAD_S);
+        let velocity = ((on - back) / (2.0 * moment)).clamp_length_max(MAX_SPEED_RAD_S);
         let acceleration = (on + back) / (moment * moment);
         self.base = at;
         self.passes =

@@ -85,7 +85,7 @@ const GAIN: f64 = 1.18;
 /// Distance from the middle up to which the centre of mass is not corrected \[1 of the support's radius\], and its
 /// maximum.
 const FREE: f64 = 0.35;
-const MOST: f64 = 0.72;
+const MAX_OFFSET: f64 = 0.72;
 
 impl Frame {
     /// The pose of an instant.
@@ -183,8 +183,8 @@ fn over_support(now: &Now, led: DVec3, forward: f64) -> DVec3 {
     let radius = flat.radius_m + (toes.radius_m - flat.radius_m) * forward;
     // On the toes the support is smaller.
     let radius = radius * (1.0 - 0.5 * forward);
-    let (free, most) = (FREE * radius, MOST * radius);
-    let held = if length <= free { length } else { free + (most - free) * libm::tanh((length - free) / (most - free)) };
+    let (free, max) = (FREE * radius, MAX_OFFSET * radius);
+    let held = if length <= free { length } else { free + (max - free) * libm::tanh((length - free) / (max - free)) };
     let scale = if length > 1e-12 { held / length } else { 1.0 };
     flat.centre + (toes.centre - flat.centre) * forward + out * scale + start
 }

@@ -83,7 +83,7 @@ impl<T: Value> MinimumJerk<T> {
         acceleration: T,
         goal: T,
     ) -> MinimumJerk<T> {
-        let for_secs = for_secs.max(SHORTEST_SECS);
+        let for_secs = for_secs.max(MIN_SECS);
         let (way, v, a) = (goal - value, velocity * for_secs, acceleration * (for_secs * for_secs));
         let factors = [
             value,
@@ -171,7 +171,7 @@ impl<T: Value> MinimumJerk<T> {
 }
 
 /// Minimum duration: a shorter one would be a jump \[s\].
-const SHORTEST_SECS: f64 = 1e-3;
+const MIN_SECS: f64 = 1e-3;
 
 /// From 0 to 1 by minimum jerk.
 pub fn eased(share: f64) -> f64 {

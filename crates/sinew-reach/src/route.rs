@@ -22,7 +22,7 @@ const EXCESS_RAD: f64 = 0.042;
 
 /// Maximum angular speed of an upper arm \[rad/s\]: above it the hand passes so near to its own shoulder that the arm
 /// whips around.
-const FASTEST_RAD_S: f64 = 11.0;
+const MAX_SPEED_RAD_S: f64 = 11.0;
 
 /// Bows that are tried in order: up, out, in, forward, back, down, by shares of the arm.
 const BOWS: [f64; 3] = [0.2, 0.4, 0.6];
@@ -43,13 +43,13 @@ struct Fault {
 
 impl Fault {
     fn is_none(&self) -> bool {
-        self.deep_m <= 0.0 && self.excess_rad <= EXCESS_RAD && self.fastest_rad_s <= FASTEST_RAD_S
+        self.deep_m <= 0.0 && self.excess_rad <= EXCESS_RAD && self.fastest_rad_s <= MAX_SPEED_RAD_S
     }
 
     fn price(&self) -> f64 {
         10.0 * self.deep_m
             + (self.excess_rad - EXCESS_RAD).max(0.0)
-            + 0.02 * (self.fastest_rad_s - FASTEST_RAD_S).max(0.0)
+            + 0.02 * (self.fastest_rad_s - MAX_SPEED_RAD_S).max(0.0)
     }
 }
 
@@ -70,12 +70,12 @@ impl Reacher {
 
     fn mend_arm(&mut self, side: usize, now: f64) {
         let mut looks = self.looks(side, now);
-        let way = Way { bow: self.arms[side].bow.goal(), swivel: self.arms[side].swivel.goal(), by_joints: false };
-        let mut best = (self.fault_of(side, &way, &mut looks), way);
+        let path = Path { bow: self.arms[side].bow.goal(), swivel: self.arms[side].swivel.goal(), by_joints: false };
+        let mut best = (self.fault_of(side, &path, &mut looks), path);
         if best.0.is_none() {
             return;
         }
-        for other in self.other_ways(side, &way, best.0.deep_m > 0.0, now) {
+        for other in self.other_ways(side, &path, best.0.deep_m > 0.0, now) {
             let fault = self.fault_of(side, &other, &mut looks);
             if fault.price() < best.0.price() - 1e-9 {
                 best = (fault, other);
@@ -98,22 +98,22 @@ impl Reacher {
     }
 
     /// Alternative paths, the most promising first.
-    fn other_ways(&self, side: usize, usual: &Way, touches: bool, now: f64) -> impl Iterator<Item = Way> + use<> {
+    fn other_ways(&self, side: usize, usual: &Path, touches: bool, now: f64) -> impl Iterator<Item = Path> + use<> {
         let usual = *usual;
         let outward = if side == 0 { 1.0 } else { -1.0 };
         let turn = DQuat::from_rotation_y(self.feet.support(now).yaw_rad);
         let arm_m = self.frame.values.arm_m;
-        let ways = [DVec3::Y, DVec3::X * outward, DVec3::Z, DVec3::X * -outward, -DVec3::Z, -DVec3::Y];
+        let paths = [DVec3::Y, DVec3::X * outward, DVec3::Z, DVec3::X * -outward, -DVec3::Z, -DVec3::Y];
         let bows = move || {
             let aside =
-                BOWS.into_iter().flat_map(move |share| ways.map(|way| usual.bow + turn * way * (share * arm_m)));
+                BOWS.into_iter().flat_map(move |share| paths.map(|path| usual.bow + turn * path * (share * arm_m)));
             [usual.bow, DVec3::ZERO].into_iter().chain(aside)
         };
         // If only joint limits are violated, the path is interpolated in joint space.
-        let by_joints = (!touches).then_some(Way { by_joints: true, ..usual });
+        let by_joints = (!touches).then_some(Path { by_joints: true, ..usual });
         let swung = std::iter::once(0.0).chain(SWIVELS);
         by_joints.into_iter().chain(
-            swung.flat_map(move |by| bows().map(move |bow| Way { bow, swivel: usual.swivel + by, by_joints: false })),
+            swung.flat_map(move |by| bows().map(move |bow| Path { bow, swivel: usual.swivel + by, by_joints: false })),
         )
     }
 
@@ -140,14 +140,14 @@ impl Reacher {
         (0..=LOOKS).map(look).collect()
     }
 
-    fn fault_of(&self, side: usize, way: &Way, looks: &mut [Look]) -> Fault {
+    fn fault_of(&self, side: usize, path: &Path, looks: &mut [Look]) -> Fault {
         let mut fault = Fault::default();
         let mut at_start = Fault::default();
         let mut before: Option<(f64, DQuat)> = None;
         for (index, look) in looks.iter_mut().enumerate() {
             let arm = &mut look.moment.arm;
-            (arm.bow, arm.swivel) = (way.bow, way.swivel);
-            arm.by_joints = if way.by_joints { look.led } else { 0.0 };
+            (arm.bow, arm.swivel) = (path.bow, path.swivel);
+            arm.by_joints = if path.by_joints { look.led } else { 0.0 };
             self.frame.place_again(side, &mut look.moment);
             let there = self.fault_at(side, &look.moment.composed);
             let upper = look.moment.composed.pose.local(ARMS[side][1]);
@@ -216,7 +216,7 @@ fn led_by_joints(begins: f64, end: f64) -> MinimumJerk<f64> {
 
 /// The path of an arm.
 #[derive(Clone, Copy, Debug)]
-struct Way {
+struct Path {
     bow: DVec3,
     swivel: f64,
     by_joints: bool,

@@ -277,11 +277,11 @@ impl Task<'_> {
     fn search(&self, aim: &mut Aim, judged: &mut Judged) {
         let yaw = self.now.support[0].yaw_rad + aim.twist;
         let mut steps = [1.0; COORDINATES];
-        let mut looks = 0;
+        let mut evaluations = 0;
         let is_done = |judged: &Judged| judged.gap_m <= EXACT_M && judged.excess_rad <= 0.0;
-        while looks < MAX_LOOKS && steps.iter().any(|step: &f64| step.abs() > SMALLEST) {
+        while evaluations < MAX_EVALUATIONS && steps.iter().any(|step: &f64| step.abs() > MIN_STEP) {
             for coordinate in 0..COORDINATES {
-                if steps[coordinate].abs() <= SMALLEST {
+                if steps[coordinate].abs() <= MIN_STEP {
                     continue;
                 }
                 let mut better = false;
@@ -290,7 +290,7 @@ impl Task<'_> {
                         steps[coordinate] = 0.0;
                         break;
                     };
-                    looks += 1;
+                    evaluations += 1;
                     let there = self.judge(&other);
                     if there.cost < judged.cost - 1e-9 {
                         (*aim, *judged) = (other, there);
@@ -300,7 +300,7 @@ impl Task<'_> {
                     steps[coordinate] = -steps[coordinate];
                 }
                 steps[coordinate] *= if better { 1.4 } else { 0.5 };
-                if is_done(judged) && looks >= ENOUGH_LOOKS {
+                if is_done(judged) && evaluations >= ENOUGH_LOOKS {
                     return;
                 }
             }
@@ -344,6 +344,6 @@ const COORDINATES: usize = 9;
 
 /// The search ends when all steps are smaller than this share of the first ones, after this maximum number of
 /// evaluations, or after fewer once the hand arrives within all limits.
-const SMALLEST: f64 = 0.012;
-const MAX_LOOKS: usize = 150;
+const MIN_STEP: f64 = 0.012;
+const MAX_EVALUATIONS: usize = 150;
 const ENOUGH_LOOKS: usize = 30;

@@ -5,7 +5,7 @@ use sinew_body::humanoid::{Body, Node, Pose};
 
 /// Maximum force \[N\], the weight of ten tonnes; larger ones are clamped, so that any finite force gives a finite
 /// pose.
-const LARGEST_FORCE_N: f64 = 1e5;
+const MAX_FORCE_N: f64 = 1e5;
 
 /// A force at a point of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ impl PointForce {
     pub(crate) fn tamed(&self) -> PointForce {
         let finite = |vector: DVec3| if vector.is_finite() { vector } else { DVec3::ZERO };
         let scale = self.force_n.abs().max_element();
-        let force_n = if scale > LARGEST_FORCE_N { self.force_n * (LARGEST_FORCE_N / scale) } else { self.force_n };
+        let force_n = if scale > MAX_FORCE_N { self.force_n * (MAX_FORCE_N / scale) } else { self.force_n };
         // A point is clamped to a body's length from its joint.
         let point = self.point.map(|point| finite(point).clamp_length_max(10.0));
         PointForce { node: self.node, point, force_n: finite(force_n) }

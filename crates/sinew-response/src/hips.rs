@@ -14,11 +14,11 @@ use sinew_snapshot::snapshot;
 const RETURN: f64 = 5.0;
 
 /// Saturation of the shown shift \[m for a 1.7 m body\].
-const LARGEST_SHIFT_M: f64 = 0.05;
+const MAX_SHIFT_M: f64 = 0.05;
 
 /// Saturation of the shown rotation \[rad\]: 15 degrees. Whole-body yaw inertia is only about 1 kg m², so that an
 /// unsaturated 400 N on a hand would turn the hips by half a right angle.
-const LARGEST_TURN: f64 = 15.0 * std::f64::consts::PI / 180.0;
+const MAX_TURN: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
 /// Bisections to find the largest deviation that the legs' joints allow: to a thousandth.
 const LIMIT_HALVINGS: usize = 10;
@@ -91,8 +91,8 @@ impl HipsState {
             if length == 0.0 { vector } else { vector * (limit * libm::tanh(length / limit) / length) }
         };
         let whole = HipsDeviation {
-            turn: saturated(self.turn, LARGEST_TURN),
-            shift: saturated(self.shift, LARGEST_SHIFT_M * body.stature_m() / 1.7),
+            turn: saturated(self.turn, MAX_TURN),
+            shift: saturated(self.shift, MAX_SHIFT_M * body.stature_m() / 1.7),
         };
         let legs = Legs::of(body, input);
         let mut shown = legs.reached(whole);

@@ -136,7 +136,7 @@ pub fn check_ragdoll(spec: &CharacterSpec) -> Result<RagdollReport, SpecError> {
         }
     }
     let limp = lie(spec)?;
-    let (held_drift_m, held_gap_m) = stay(spec)?;
+    let (held_drift_m, held_gap_m) = drift(spec)?;
     Ok(RagdollReport {
         mass_ratio,
         room_rad,
@@ -176,7 +176,7 @@ fn lie(spec: &CharacterSpec) -> Result<Lying, SpecError> {
 }
 
 /// Fixes the body's hips and holds its joints by springs of 5 Hz: returns drift and largest gap.
-fn stay(spec: &CharacterSpec) -> Result<(f64, f64), SpecError> {
+fn drift(spec: &CharacterSpec) -> Result<(f64, f64), SpecError> {
     let mut world = World::new(WorldSettings { floor: None, ..WorldSettings::default() });
     let id = world.add_character(CharacterSpec { velocity: DVec3::ZERO, ..spec.clone() })?;
     let omega = std::f64::consts::TAU * 5.0;

@@ -330,7 +330,7 @@ fn base(kind: &PropJointKind) -> GenericJoint {
 
 fn is_sound(spec: &PropJointSpec) -> bool {
     let gain = |gain: f64| (0.0..1e9).contains(&gain);
-    let length = |length: f64| (0.0..sanitize::FARTHEST_M).contains(&length);
+    let length = |length: f64| (0.0..sanitize::MAX_DISTANCE_M).contains(&length);
     let axis = |axis: DVec3| axis.is_finite() && axis.length() > 1e-6;
     let around_zero = |range: Option<[f64; 2]>, most: f64| {
         range.is_none_or(|[low, high]| (-most..=0.0).contains(&low) && (0.0..=most).contains(&high) && low < high)
@@ -338,7 +338,7 @@ fn is_sound(spec: &PropJointSpec) -> bool {
     let kind = match spec.kind {
         PropJointKind::Fixed | PropJointKind::Ball => true,
         PropJointKind::Hinge { axis: about, range } => axis(about) && around_zero(range, 3.0),
-        PropJointKind::Slider { axis: along, range } => axis(along) && around_zero(range, sanitize::FARTHEST_M),
+        PropJointKind::Slider { axis: along, range } => axis(along) && around_zero(range, sanitize::MAX_DISTANCE_M),
         PropJointKind::Rope { length_m } => length(length_m) && length_m > 1e-4,
         PropJointKind::Spring { length_m, stiffness_n_m, damping_n_s_m } => {
             length(length_m) && gain(stiffness_n_m) && gain(damping_n_s_m) && stiffness_n_m + damping_n_s_m > 0.0
@@ -352,7 +352,7 @@ fn is_sound(spec: &PropJointSpec) -> bool {
 fn is_motor(motor: &Motor, kind: &PropJointKind) -> bool {
     let aim = match motor.aim {
         Aim::Speed(speed) => speed.abs() <= sanitize::MAX_SPEED_M_S,
-        Aim::Place(place) => place.abs() <= sanitize::FARTHEST_M,
+        Aim::Place(place) => place.abs() <= sanitize::MAX_DISTANCE_M,
     };
     aim && (0.0..=crate::MAX_FORCE_N).contains(&motor.strength)
         && motor.strength > 0.0

@@ -6,10 +6,10 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node};
 
 /// Maximum distance from the origin, and maximum size \[m\].
-pub(crate) const FARTHEST_M: f64 = 1e4;
+pub(crate) const MAX_DISTANCE_M: f64 = 1e4;
 
 /// Minimum size of a shape \[m\].
-const THINNEST_M: f64 = 1e-4;
+const MIN_SIZE_M: f64 = 1e-4;
 
 /// Maximum speed that can be set \[m/s\]; the solver clamps to it too.
 pub(crate) const MAX_SPEED_M_S: f64 = 400.0;
@@ -40,7 +40,7 @@ pub(crate) fn unit(rotation: DQuat) -> Option<DQuat> {
 
 /// Whether a position is finite and within the world's bounds.
 pub(crate) fn is_place(place: DVec3) -> bool {
-    place.is_finite() && place.abs().max_element() < FARTHEST_M
+    place.is_finite() && place.abs().max_element() < MAX_DISTANCE_M
 }
 
 /// The velocity, clamped to the maximum speed; `None` if it is not finite.
@@ -125,11 +125,11 @@ pub(crate) fn surface(surface: Surface) -> Surface {
 
 /// Whether a shape is valid: finite, not degenerate and within the bounds of the world.
 pub(crate) fn is_solid(solid: &Solid) -> bool {
-    let size = |size: f64| (THINNEST_M..FARTHEST_M).contains(&size);
+    let size = |size: f64| (MIN_SIZE_M..MAX_DISTANCE_M).contains(&size);
     let form = match &solid.form {
         Form::Ball { radius_m } => size(*radius_m),
         Form::Box { size_m } => size_m.to_array().into_iter().all(size),
-        Form::Capsule { radius_m, length_m } => size(*radius_m) && (0.0..FARTHEST_M).contains(length_m),
+        Form::Capsule { radius_m, length_m } => size(*radius_m) && (0.0..MAX_DISTANCE_M).contains(length_m),
         Form::Ring { radius_m, tube_m } => size(*radius_m) && size(*tube_m) && tube_m < radius_m,
         Form::Mesh { points_m, triangles } => {
             let known = |index: &u32| (*index as usize) < points_m.len();
@@ -142,14 +142,14 @@ pub(crate) fn is_solid(solid: &Solid) -> bool {
     form && is_place(solid.centre) && unit(solid.rotation).is_some()
 }
 
-/// Whether four of the points span a tetrahedron that is thicker than [`THINNEST_M`] in every direction.
+/// Whether four of the points span a tetrahedron that is thicker than [`MIN_SIZE_M`] in every direction.
 fn has_volume(points: &[DVec3]) -> bool {
     let farthest = |distance: &dyn Fn(DVec3) -> f64| {
         points
             .iter()
             .copied()
             .max_by(|a, b| distance(*a).total_cmp(&distance(*b)))
-            .filter(|&far| distance(far) > THINNEST_M)
+            .filter(|&far| distance(far) > MIN_SIZE_M)
     };
     let Some(&first) = points.first() else { return false };
     let Some(second) = farthest(&|point| (point - first).length()) else { return false };
@@ -164,7 +164,7 @@ fn has_volume(points: &[DVec3]) -> bool {
 pub(crate) fn faulty_part(body: &Body) -> Option<Node> {
     Node::ALL.into_iter().find(|&node| {
         let (link, shape) = (body.link(node), body.link(node).shape);
-        let size = |size: f64| (THINNEST_M..FARTHEST_M).contains(&size);
+        let size = |size: f64| (MIN_SIZE_M..MAX_DISTANCE_M).contains(&size);
         let sound = (1e-6..1e6).contains(&link.mass_kg)
             && [link.offset, link.tip, link.centre, shape.from, shape.to].into_iter().all(is_place)
             && link.inertia.is_finite()

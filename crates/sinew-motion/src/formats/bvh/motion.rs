@@ -55,14 +55,14 @@ fn frame_count(cursor: &mut Cursor) -> Result<(u64, Span), Error> {
 }
 
 fn frame_time(cursor: &mut Cursor, notes: &mut Vec<Note>) -> Result<(f64, Span), Error> {
-    const SHORTEST_SECS: f64 = 1e-6;
-    const LONGEST_SECS: f64 = 1e3;
+    const MIN_SECS: f64 = 1e-6;
+    const MAX_SECS: f64 = 1e3;
     let bytes = cursor.bytes;
     let Some(word) = cursor.word() else {
         return Err(cursor.ended("the frame time"));
     };
     let secs = number(bytes, word, || "Frame Time:".to_owned())?;
-    if !(SHORTEST_SECS..=LONGEST_SECS).contains(&secs) {
+    if !(MIN_SECS..=MAX_SECS).contains(&secs) {
         let problem = format!("Frame Time: is {}; a frame takes between 1e-6 and 1000 s", show(word.of(bytes)));
         let remedy = "write the seconds from frame to frame, such as 0.0083333 for 120 frames per second";
         return Err(fault(bytes, word.start, problem, remedy));

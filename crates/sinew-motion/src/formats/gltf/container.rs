@@ -11,7 +11,7 @@ const BIN: u32 = 0x004E_4942;
 /// but `[0,0,0,...` must stop here.
 const MAX_JSON_VALUES: usize = 2_000_000;
 /// Maximum nesting depth; glTF itself nests about ten deep, `extras` may be deeper.
-const DEEPEST_JSON: usize = 100;
+const MAX_JSON_DEPTH: usize = 100;
 
 /// The parts of a glTF file; nothing is copied.
 pub(super) struct Container<'a> {
@@ -113,9 +113,9 @@ fn check_json(json: &[u8], offset: usize) -> Result<(), Error> {
             b',' => values += 1,
             _ => {}
         }
-        if depth > DEEPEST_JSON || values > MAX_JSON_VALUES {
-            let problem = if depth > DEEPEST_JSON {
-                format!("the JSON is nested more than {DEEPEST_JSON} deep")
+        if depth > MAX_JSON_DEPTH || values > MAX_JSON_VALUES {
+            let problem = if depth > MAX_JSON_DEPTH {
+                format!("the JSON is nested more than {MAX_JSON_DEPTH} deep")
             } else {
                 format!("the JSON holds more than {MAX_JSON_VALUES} values")
             };

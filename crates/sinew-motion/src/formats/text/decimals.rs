@@ -1,7 +1,7 @@
 //! The number of decimals that a file uses.
 
 /// Maximum number of printed decimals: more than an `f64` of everyday size holds.
-const MOST: usize = 15;
+const MAX_DECIMALS: usize = 15;
 /// Default number of decimals if the file does not show its precision.
 const DEFAULT: usize = 6;
 
@@ -33,7 +33,11 @@ impl Decimals {
     /// The number of decimals to print: the maximum that the file uses. Files with exponents get at least six, and so
     /// do files with whole numbers or a bare `.0`, which do not show a precision.
     pub(crate) fn count(self) -> usize {
-        if self.exponents || self.most < 2 { self.most.clamp(DEFAULT, MOST) } else { self.most.min(MOST) }
+        if self.exponents || self.most < 2 {
+            self.most.clamp(DEFAULT, MAX_DECIMALS)
+        } else {
+            self.most.min(MAX_DECIMALS)
+        }
     }
 }
 

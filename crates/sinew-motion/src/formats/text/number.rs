@@ -5,7 +5,7 @@ use crate::Error;
 
 /// Maximum absolute value: no length, angle or time of a motion file is larger, and products of larger numbers could
 /// overflow.
-const LARGEST: f64 = 1e12;
+const MAX_VALUE: f64 = 1e12;
 
 /// The number in a word. `what` names it for the message, such as "OFFSET of Hips".
 ///
@@ -16,7 +16,7 @@ pub(crate) fn number(bytes: &[u8], word: Span, what: impl FnOnce() -> String) ->
     let parsed = std::str::from_utf8(token).ok().and_then(|text| text.parse::<f64>().ok());
     match parsed {
         // Also false for NaN.
-        Some(value) if value.abs() <= LARGEST => Ok(value),
+        Some(value) if value.abs() <= MAX_VALUE => Ok(value),
         other => Err(refuse(bytes, word, other, &what())),
     }
 }

@@ -51,9 +51,9 @@ pub(crate) fn fault(bytes: &[u8], at: usize, problem: impl Into<String>, remedy:
 
 /// A piece of a file for a message: quoted, and truncated if it is long.
 pub(crate) fn show(piece: &[u8]) -> String {
-    const LONGEST: usize = 40;
-    let cut = &piece[..piece.len().min(LONGEST)];
-    let dots = if piece.len() > LONGEST { "..." } else { "" };
+    const MAX_SHOWN: usize = 40;
+    let cut = &piece[..piece.len().min(MAX_SHOWN)];
+    let dots = if piece.len() > MAX_SHOWN { "..." } else { "" };
     format!("{:?}{dots}", String::from_utf8_lossy(cut))
 }
 
