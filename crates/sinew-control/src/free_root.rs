@@ -1,11 +1,11 @@
-//! Where the hips go when the source says angles and no place: without root motion, the root follows the stance foot.
+//! Foot locking: without root motion, the root follows the stance foot.
 
 use crate::{Root, Wanted};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_world::{CharacterFrame, hips_over_soles_m};
 
-/// A place for wanted poses with [`Root::Free`], for trackers that follow whole poses.
+/// Places wanted poses with [`Root::Free`], for trackers that follow whole poses.
 ///
 /// ```
 /// use sinew_body::humanoid::{Body, Pose};
@@ -19,29 +19,29 @@ pub struct FreeRoot {
     position: DVec3,
     rotation: DQuat,
     sole_m: Option<f64>,
-    /// The feet of the last pose, against the hips.
+    /// The feet of the last pose, relative to the hips.
     feet: Option<[DVec3; 2]>,
-    /// The last wanted pose had a place of its own.
+    /// The last wanted pose had root motion.
     was_placed: bool,
 }
 
-/// A foot so much higher than the other does not stand \[m\].
+/// Height above the other foot at which a foot does not stand \[m\].
 const LIFTED_M: f64 = 0.04;
 
 impl FreeRoot {
-    /// At the hips of a pose. With the height of a floor \[m\] the soles are kept on it, and the hips go where the foot that stands has
-    /// them go; without one they stay.
+    /// At the hips of a pose. With the height of a floor \[m\] the soles are kept on it, and the hips follow the stance
+    /// foot; without one they stay.
     pub fn at(pose: &Pose, sole_m: Option<f64>) -> FreeRoot {
         let (position, rotation) = (pose.hips_position, pose.world[0]);
         FreeRoot { position, rotation, sole_m, feet: None, was_placed: false }
     }
 
-    /// The hips are at the place of a pose's from now on.
+    /// Sets the root to the hips of a pose.
     pub fn stand_at(&mut self, pose: &Pose) {
         (self.position, self.rotation) = (pose.hips_position, pose.world[0]);
     }
 
-    /// The hips are where the body's are, upright, from now on.
+    /// Sets the root to the body's hips, upright.
     pub fn stand_where_it_is(&mut self, character: &CharacterFrame) {
         let facing = character.facing;
         self.position = character.parts[0].position;
@@ -58,7 +58,7 @@ impl FreeRoot {
         pose
     }
 
-    /// Places a wanted pose, once a motion frame. One that comes after poses with a place of their own stands where the body is.
+    /// Places a wanted pose, once a motion frame. One after poses with root motion starts at the body's position.
     pub fn place(&mut self, body: &Body, character: &CharacterFrame, wanted: &mut Wanted) {
         let was_placed = std::mem::replace(&mut self.was_placed, wanted.root == Root::Placed);
         if wanted.root == Root::Placed {
@@ -75,7 +75,7 @@ impl FreeRoot {
         wanted.pose = self.pose(body, wanted);
     }
 
-    /// How far the hips go over the ground, so that the standing foot of this pose is where it was in the last.
+    /// The displacement of the hips over the ground that keeps the stance foot of this pose where it was in the last.
     fn stance_step(&mut self, body: &Body, pose: &Pose) -> DVec3 {
         let places = pose.positions(body);
         let feet = [Node::LeftFoot, Node::RightFoot].map(|foot| places[foot.index()] - pose.hips_position);

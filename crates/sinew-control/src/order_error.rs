@@ -2,17 +2,17 @@
 
 use std::fmt;
 
-/// What kind of trouble an [`OrderError`] is, for a program to match on.
+/// The kind of an [`OrderError`], for a program to match on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum OrderErrorKind {
     /// No character, prop, joint, part, pose, graph, shape, controller or file has this name.
     NotFound,
-    /// A number is NaN, infinite or beyond its range.
+    /// A number is NaN, infinite or out of range.
     OutOfRange,
-    /// A text or a list is longer than its limit, or too many of something are under way.
+    /// A text or a list exceeds its maximum, or too many effects are active.
     TooLarge,
-    /// The command is not addressed to what it is for: it needs a character, or a prop, or the thing cannot be used so.
+    /// The command has the wrong addressee: it needs a character, or a prop, or the addressee does not support it.
     WrongTarget,
     /// Keys of the command exclude each other, or one is missing.
     Contradiction,
@@ -20,7 +20,7 @@ pub enum OrderErrorKind {
     NotHonoured,
     /// The command makes sense, but not as the stage is now: nothing lies in reach, no such shape was added.
     WrongState,
-    /// Whoever gives the command may not.
+    /// The sender is not authorized to give the command.
     NotPermitted,
     /// A Python controller does not start or does not run.
     Script,
@@ -46,12 +46,12 @@ impl OrderError {
         OrderError { kind, problem: problem.into() }
     }
 
-    /// What kind of trouble it is.
+    /// Its kind.
     pub fn kind(&self) -> OrderErrorKind {
         self.kind
     }
 
-    /// What is wrong and what to do, in words.
+    /// The problem and the remedy, as text.
     pub fn problem(&self) -> &str {
         &self.problem
     }

@@ -1,4 +1,4 @@
-//! What a character is to reach for, and how: the same words in a scene's source and in a command.
+//! A reach as text: the same keys in a scene's source and in a command.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,8 +17,8 @@ pub enum ReachHand {
     Both,
 }
 
-/// Something to reach for with arms, spine, head and legs (Huang, Kapadia, Terzopoulos 2011). Of `object`, `target_m`, and the
-/// pair `left_m` and `right_m`, one is stated.
+/// A reach with arms, spine, head and legs (Huang, Kapadia, Terzopoulos 2011). Of `object`, `target_m`, and the pair
+/// `left_m` and `right_m`, one is stated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ReachOrder {
@@ -36,13 +36,13 @@ pub struct ReachOrder {
     /// A point for the right hand \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub right_m: Option<[f64; 3]>,
-    /// Hold the object when the hand is there.
+    /// Attach the object when the hand arrives.
     pub grasp: bool,
-    /// Objects that the arms keep clear of.
+    /// Obstacles of the arms.
     pub avoid: Vec<String>,
     /// Flexibility of the legs, 0.25 to 4: the higher, the sooner the body squats instead of stooping.
     pub flexibility: f64,
-    /// Peak speed of the hand \[m/s\]; as people do when left out.
+    /// Peak speed of the hand \[m/s\]. Default: that of people.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_m_s: Option<f64>,
     /// Time to the target \[s\], instead of a speed.
@@ -68,7 +68,7 @@ impl Default for ReachOrder {
 }
 
 impl ReachOrder {
-    /// Whether it makes sense by itself: one kind of target, numbers in range.
+    /// Checks it by itself: one kind of target, numbers in range.
     ///
     /// # Errors
     /// What is wrong and what to do.

@@ -1,38 +1,39 @@
-//! What a character is to do: the answer of every [`Source`](crate::source::Source), the order to every
+//! The wanted pose: the output of every [`Source`](crate::source::Source), the input of every
 //! [`Tracker`](crate::tracker::Tracker).
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, log};
 
-/// What one joint is to do.
+/// The target of one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointTarget {
     /// Wanted `parent_from_node`.
     pub rotation: DQuat,
-    /// Wanted angular velocity against the parent, in the node's frame \[rad/s\].
+    /// Wanted angular velocity relative to the parent, in the node's frame \[rad/s\].
     pub velocity: DVec3,
     /// Factor on the joint's own stiffness, the pose's gain k_sp (Shapiro et al. 2007, EQ3); 0 leaves it limp.
     pub gain: f64,
     /// Factor on the joint's own damping.
     pub damping: f64,
-    /// Torque on the node against its parent on top, in world axes \[N m\].
+    /// Additional torque on the node relative to its parent (feed-forward), in world axes \[N m\].
     pub torque: DVec3,
 }
 
-/// Whether the wanted pose says where the hips are.
+/// Whether the wanted pose has root motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Root {
-    /// It says angles only, as key poses do; [`FreeRoot`](crate::FreeRoot) finds a place for trackers that follow poses.
+    /// No root motion: angles only, as of key poses; [`FreeRoot`](crate::FreeRoot) places it for trackers that follow
+    /// poses.
     #[default]
     Free,
-    /// The hips are wanted where [`Wanted::pose`] has them, as in a clip.
+    /// Root motion: the hips are wanted where [`Wanted::pose`] has them, as in a clip.
     Placed,
 }
 
-/// What the whole body is to do.
+/// The wanted pose of the whole body.
 ///
-/// Trackers that drive joints read [`joints`](Wanted::joints), trackers that hold parts to their places read
-/// [`pose`](Wanted::pose); both say the same.
+/// Trackers that drive joints read [`joints`](Wanted::joints), trackers that hold parts to positions read
+/// [`pose`](Wanted::pose); both describe the same pose.
 ///
 /// ```
 /// use sinew_body::humanoid::{Node, exp};
@@ -46,7 +47,8 @@ pub enum Root {
 pub struct Wanted {
     /// By [`Node::index`]; the hips' entry is unused.
     pub joints: [JointTarget; Node::COUNT],
-    /// The whole pose, world. With a free [`root`](Wanted::root) it holds nothing until [`FreeRoot`](crate::FreeRoot) has placed it.
+    /// The whole pose, world. With a free [`root`](Wanted::root) it is undefined until [`FreeRoot`](crate::FreeRoot)
+    /// has placed it.
     pub pose: Pose,
     /// Whether the pose's hips are where they are wanted.
     pub root: Root,

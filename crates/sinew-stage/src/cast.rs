@@ -1,4 +1,4 @@
-//! Who and what is on the stage, by name.
+//! The cast: characters, props and joints of a stage, by name.
 
 use crate::scene::Scene;
 use sinew_body::humanoid::Node;
@@ -16,7 +16,7 @@ pub struct Cast {
     aliases: Vec<BTreeMap<String, Node>>,
 }
 
-/// What the ground is called.
+/// Name of the ground.
 pub const GROUND: &str = "ground";
 
 impl Cast {
@@ -98,7 +98,7 @@ impl Cast {
         Some(Touchable::One(Entity::Part(own, self.part(own, name)?)))
     }
 
-    /// What a thing is called: `ball`, `left.rightHand`, `ground`.
+    /// The name of an entity: `ball`, `left.rightHand`, `ground`.
     pub fn name_of(&self, entity: Entity) -> String {
         match entity {
             Entity::Floor => GROUND.to_owned(),

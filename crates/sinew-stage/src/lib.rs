@@ -1,7 +1,7 @@
 //! A scene file becomes a running stage.
 //!
-//! [`scene`] reads the file, [`Stage`] runs it, [`Runner`] stands around its steps: the pace of the clock,
-//! observers, the [`Recording`] of what it showed, the [`take`] of what happened to it.
+//! [`scene`] reads the file, [`Stage`] runs it, [`Runner`] drives its steps: the pace of real time, observers, the
+//! [`Recording`] of its motion, the [`take`] of its commands.
 //!
 //! ```
 //! use sinew_control::{Action, Command};

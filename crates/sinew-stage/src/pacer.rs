@@ -1,25 +1,25 @@
-//! The pace of the clock.
+//! Real-time pacing.
 
 use std::time::{Duration, Instant};
 
-/// Keeps a stage at the pace of the clock. Steps are due at fixed times from the beginning, so that waiting a little too long
-/// once delays nothing after it; when the machine falls far behind, the time lost is given up.
+/// Runs a stage in real time. Steps are due at fixed times from the start, so that one late step does not delay those
+/// after it; when the machine falls more than a quarter of a second behind, the time lost is skipped.
 #[derive(Clone, Debug)]
 pub struct Pacer {
     began: Instant,
     step: Duration,
     /// Steps before `began`.
     from_step: u64,
-    /// Times that time was given up.
+    /// Number of times that lost time was skipped.
     lapses: u64,
 }
 
-/// How far behind the clock a stage tries to catch up.
+/// Maximum delay behind real time that is caught up.
 const MAX_BEHIND: Duration = Duration::from_millis(250);
 
 impl Pacer {
-    /// The step after `step` is due now, each of the others `step_secs` after the one before it \[s\]. A length that is negative,
-    /// NaN or too long for a clock counts as 0: nothing is waited for.
+    /// The step after `step` is due now, each later one `step_secs` after the one before it \[s\]. A length that is
+    /// negative, NaN or too long for a clock counts as 0: no waiting.
     pub fn new(step: u64, step_secs: f64) -> Pacer {
         let length = Duration::try_from_secs_f64(step_secs).unwrap_or_default();
         Pacer { began: Instant::now(), step: length, from_step: step, lapses: 0 }
@@ -37,7 +37,8 @@ impl Pacer {
         }
     }
 
-    /// Times that the machine fell more than a quarter of a second behind the clock, and the time lost was given up.
+    /// Number of times that the machine fell more than a quarter of a second behind real time, and the time lost was
+    /// skipped.
     pub fn lapses(&self) -> u64 {
         self.lapses
     }

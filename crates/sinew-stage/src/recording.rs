@@ -1,4 +1,4 @@
-//! What was seen, frame by frame, for files and pictures.
+//! The recorded motion of a run, frame by frame, for files and pictures.
 
 use crate::{Scene, Stage, StageError};
 use glam::{DQuat, DVec3};
@@ -10,7 +10,7 @@ use sinew_world::{CharacterId, Frame, PartShape, Solid};
 pub struct Recording {
     /// Frames a second.
     pub motion_hz: f64,
-    /// Frames so far; the first is the start.
+    /// Number of frames so far; the first is the start.
     pub frames: usize,
     /// Every character, in the order of the stage.
     pub characters: Vec<RecordedCharacter>,
@@ -59,7 +59,7 @@ impl Recording {
     /// An empty recording of a scene whose stage runs elsewhere; [`Recording::push_frame`] fills it.
     ///
     /// # Errors
-    /// When a clip of the scene cannot be read.
+    /// A clip of the scene cannot be read.
     pub fn of_scene(scene: &Scene) -> Result<Recording, StageError> {
         Ok(Recording::of_bodies(scene, crate::build::bodies(scene)?.into_iter()))
     }
@@ -90,7 +90,7 @@ impl Recording {
         }
     }
 
-    /// Takes down what the stage shows now.
+    /// Records the present frame.
     pub fn push(&mut self, stage: &Stage) {
         for (slot, character) in self.characters.iter_mut().enumerate() {
             let id = CharacterId::first_in(slot);
@@ -104,7 +104,7 @@ impl Recording {
         self.push_frame(stage.world().frame());
     }
 
-    /// Takes down a frame; parts have the shapes that they had in the frame before.
+    /// Records a frame; parts keep the shapes of the previous frame.
     pub fn push_frame(&mut self, frame: &Frame) {
         for (character, seen) in self.characters.iter_mut().zip(&frame.characters) {
             character.poses.push(seen.pose());

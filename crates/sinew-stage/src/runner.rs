@@ -1,11 +1,11 @@
-//! What stands around the steps of a stage: the clock, observers, the recording, the take.
+//! The runner of a stage: pace, observers, recording, take.
 
 use crate::take::{HashTrace, Take};
 use crate::{Pacer, Recording, SeekError, Stage, Timeline};
 
-/// Somebody who gives a stage commands and watches what comes of them: a keyboard, a session's network, a report, a progress bar.
+/// An observer gives a stage commands and reads its frames: a keyboard, a session's network, a report, a progress bar.
 pub trait Observer {
-    /// Called before every step. Commands that are given here act in this step, and stand in the take.
+    /// Called before every step. Commands that are given here are applied in this step, and recorded in the take.
     fn before_step(&mut self, _stage: &mut Stage) {}
 
     /// Called after every step, when its frame is there.
@@ -17,10 +17,11 @@ pub trait Observer {
     }
 }
 
-/// Runs a stage step by step; paced by the clock, with its motion recorded and its take kept, each if asked for.
+/// Runs a stage step by step; optionally in real time, with its motion recorded and its take kept.
 ///
-/// Before each step it waits for the clock and calls [`Observer::before_step`] of all observers in their order; after it
-/// [`Observer::after_step`], then it records. Without any observer, pace or recording it does what [`Stage::step`] does.
+/// Before each step it waits until the step is due and calls [`Observer::before_step`] of all observers in their order;
+/// after it [`Observer::after_step`], then it records. Without any observer, pace or recording it does what
+/// [`Stage::step`] does.
 ///
 /// ```
 /// use sinew_stage::{Observer, Runner, Scene, Stage};
@@ -54,15 +55,15 @@ pub struct Runner {
     timeline: Option<Timeline>,
 }
 
-/// A run that has ended.
+/// The result of a run.
 pub struct Finished {
     /// The stage after its last step.
     pub stage: Stage,
     /// Its motion, if it was recorded.
     pub recording: Option<Recording>,
-    /// All that is needed to run it again, if it was kept.
+    /// Everything needed to run it again, if it was kept.
     pub take: Option<Take>,
-    /// Times that the machine fell so far behind the clock that time was given up; see [`Pacer`].
+    /// Number of times that the machine fell so far behind real time that time was skipped; see [`Pacer`].
     pub lapses: u64,
 }
 
@@ -70,7 +71,7 @@ pub struct Finished {
 const TRACE_STEPS: u64 = 240;
 
 impl Runner {
-    /// The longest motion that is recorded \[s\]; later frames of a longer run are left out.
+    /// Maximum duration of recorded motion \[s\]; later frames are left out.
     pub const MAX_MOTION_SECS: f64 = 3600.0;
 
     /// Runs a stage as fast as the machine can, and keeps nothing: no motion, no commands.
@@ -80,7 +81,7 @@ impl Runner {
         Runner { stage, steps_per_frame, is_paced: false, pacer: None, recording: None, trace: None, timeline: None }
     }
 
-    /// Keeps to the clock: one second of the stage takes one second. The clock starts with the next step.
+    /// Runs in real time: one second of the stage takes one second. The clock starts with the next step.
     #[must_use]
     pub fn paced(mut self) -> Runner {
         self.is_paced = true;
@@ -180,7 +181,7 @@ impl Runner {
         }
     }
 
-    /// One physics step with all that stands around it.
+    /// One physics step with pacing, observers and recording.
     pub fn step(&mut self, observers: &mut [&mut dyn Observer]) {
         if self.is_paced {
             let step = self.stage.frame().step;
@@ -216,7 +217,7 @@ impl Runner {
         Some(take)
     }
 
-    /// Ends the run and hands out what was kept.
+    /// Ends the run and returns its result.
     pub fn finish(self) -> Finished {
         let take = self.take();
         let lapses = self.pacer.as_ref().map_or(0, Pacer::lapses);

@@ -1,4 +1,4 @@
-//! What a script sees: the frame in the script's own words.
+//! The snapshot of the frame for scripts.
 
 use crate::cast::Cast;
 use crate::scene::{JointKind, Scene};
@@ -46,7 +46,7 @@ fn thing(entity: Entity) -> Thing {
     }
 }
 
-/// The world as it is now; `hinges` tells which joints of the scene turn.
+/// The present world; `hinges` says which joints of the scene are hinges.
 pub(crate) fn snapshot(world: &World, hinges: &[bool]) -> Snapshot {
     let frame = world.frame();
     let characters = frame.characters.iter().enumerate().map(|(index, character)| CharacterState {

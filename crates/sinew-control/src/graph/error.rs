@@ -1,62 +1,62 @@
-//! What can be wrong with a pose graph.
+//! Errors of a pose graph.
 
 use crate::pose::PartName;
 
 /// Why a graph cannot be played.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GraphError {
-    /// A state that is not there.
+    /// A state that does not exist.
     #[error("{place}: there is no state {name:?}; the states are {known}")]
     UnknownState {
-        /// Where it is named.
+        /// The place where it is named.
         place: String,
         /// The name.
         name: String,
-        /// What there is.
+        /// The known names.
         known: String,
     },
-    /// A pose that is not there.
+    /// A pose that does not exist.
     #[error("state {state:?}: there is no pose {name:?}; there are: {known}")]
     UnknownPose {
-        /// Where it is named.
+        /// The place where it is named.
         state: String,
         /// The name.
         name: String,
-        /// What there is.
+        /// The known names.
         known: String,
     },
-    /// A name in a condition that stands for nothing.
+    /// An unknown name in a condition.
     #[error(
         "{place}: nothing is called {name:?}; name an own part ({parts}), self, centre, ground, a character's part as name.part, \
          or one of: {known}",
         parts = PartName::list()
     )]
     UnknownName {
-        /// Where it is named.
+        /// The place where it is named.
         place: String,
         /// The name.
         name: String,
-        /// What there is.
+        /// The known names.
         known: String,
     },
-    /// A condition that makes no sense.
+    /// An invalid condition.
     #[error("{place}: {problem}")]
     Condition {
-        /// Where it stands.
+        /// Its place.
         place: String,
         /// What is wrong and what to do.
         problem: String,
     },
-    /// Too much of something.
+    /// A count above its maximum.
     #[error("{place}: {count} {what} are too many; up to {most} are taken")]
     TooMany {
         /// Where.
         place: String,
         /// Of what.
         what: &'static str,
-        /// How many there are.
+        /// The count.
         count: usize,
-        /// How many may be.
+        /// The maximum.
         most: usize,
     },
 }

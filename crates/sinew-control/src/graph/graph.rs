@@ -10,9 +10,9 @@ use sinew_body::humanoid::Node;
 use sinew_world::Entity;
 use std::collections::BTreeMap;
 
-/// Most states of a graph.
+/// Maximum number of states of a graph.
 pub const MAX_STATES: usize = 500;
-/// Most ways out of a state, and most rules of feedback and upright parts in it.
+/// Maximum number of transitions out of a state, and of feedback rules and upright parts in it.
 const MAX_RULES: usize = 50;
 
 /// A graph that can be played, by any number of players.
@@ -29,12 +29,12 @@ pub(super) struct State {
     pub(super) pose_name: String,
     pub(super) pose: KeyPose,
     pub(super) steering: Steering,
-    pub(super) ways: Vec<Way>,
+    pub(super) edges: Vec<Edge>,
 }
 
-/// A way out.
+/// A transition.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Way {
+pub(super) struct Edge {
     pub(super) to: usize,
     pub(super) after_secs: Option<f64>,
     pub(super) touching: Option<(Thing, Thing)>,
@@ -45,10 +45,10 @@ pub(super) struct Way {
 }
 
 impl Graph {
-    /// Checks a graph against the poses and names that there are.
+    /// Resolves a graph against the known poses and names.
     ///
     /// # Errors
-    /// The first thing that is wrong with it, see [`GraphError`].
+    /// The first error in it, see [`GraphError`].
     pub fn new(spec: &GraphSpec, poses: &BTreeMap<String, KeyPose>, names: &dyn Names) -> Result<Graph, GraphError> {
         at_most(MAX_STATES, spec.states.len(), "graph", "states")?;
         let order: Vec<&str> = spec.states.keys().map(String::as_str).collect();
@@ -69,39 +69,39 @@ impl Graph {
                 known: list(&poses.keys().map(String::as_str).collect::<Vec<_>>()),
             })?;
             at_most(MAX_RULES, state.to.len(), &place, "ways out")?;
-            let mut ways = Vec::with_capacity(state.to.len());
-            for (index, way) in state.to.iter().enumerate() {
+            let mut edges = Vec::with_capacity(state.to.len());
+            for (index, edge) in state.to.iter().enumerate() {
                 let place = format!("{place}, to[{index}]");
-                ways.push(resolve_way(way, state_index(&way.state, &place)?, &place, names)?);
+                edges.push(resolve_edge(edge, state_index(&edge.state, &place)?, &place, names)?);
             }
             states.push(State {
                 name: name.clone(),
                 pose_name: state.pose.clone(),
                 pose: pose.clone(),
                 steering: resolve_steering(state, &place)?,
-                ways,
+                edges,
             });
         }
         Ok(Graph { start, states })
     }
 
-    /// The states' names, in the order of the alphabet.
+    /// The states' names, in alphabetical order.
     pub fn state_names(&self) -> impl Iterator<Item = &str> {
         self.states.iter().map(|state| state.name.as_str())
     }
 
-    /// A state's place in that order.
+    /// A state's index in that order.
     pub(super) fn state(&self, name: &str) -> Option<usize> {
         self.states.iter().position(|state| state.name == name)
     }
 }
 
-fn resolve_way(way: &TransitionSpec, to: usize, place: &str, names: &dyn Names) -> Result<Way, GraphError> {
+fn resolve_edge(edge: &TransitionSpec, to: usize, place: &str, names: &dyn Names) -> Result<Edge, GraphError> {
     let wrong = |problem: String| GraphError::Condition { place: place.to_owned(), problem };
-    if way.after_secs.is_none() && way.touching.is_none() && way.sensor.is_none() && way.signal.is_none() {
+    if edge.after_secs.is_none() && edge.touching.is_none() && edge.sensor.is_none() && edge.signal.is_none() {
         return Err(wrong("no condition; give after_secs, touching, sensor or signal".to_owned()));
     }
-    if let Some(after_secs) = way.after_secs {
+    if let Some(after_secs) = edge.after_secs {
         number::checked(after_secs, &number::SECS, "after_secs").map_err(wrong)?;
     }
     let thing = |name: &str| {
@@ -111,28 +111,28 @@ fn resolve_way(way: &TransitionSpec, to: usize, place: &str, names: &dyn Names) 
             known: list(&names.known()),
         })
     };
-    let touching = match &way.touching {
+    let touching = match &edge.touching {
         Some([one, other]) => Some((thing(one)?, thing(other)?)),
         None => None,
     };
-    let sensor = match &way.sensor {
+    let sensor = match &edge.sensor {
         Some(sensor) => Some(resolve_sensor(sensor, place, thing)?),
         None => None,
     };
-    let words = words_of(way);
-    Ok(Way { to, after_secs: way.after_secs, touching, sensor, signal: way.signal.clone(), words })
+    let words = words_of(edge);
+    Ok(Edge { to, after_secs: edge.after_secs, touching, sensor, signal: edge.signal.clone(), words })
 }
 
 /// "after 0.1 s, rightFoot touches ground".
-fn words_of(way: &TransitionSpec) -> String {
+fn words_of(edge: &TransitionSpec) -> String {
     let mut words = Vec::new();
-    if let Some(secs) = way.after_secs {
+    if let Some(secs) = edge.after_secs {
         words.push(format!("after {secs} s"));
     }
-    if let Some([one, other]) = &way.touching {
+    if let Some([one, other]) = &edge.touching {
         words.push(format!("{} touches {}", short(one), short(other)));
     }
-    if let Some(sensor) = &way.sensor {
+    if let Some(sensor) = &edge.sensor {
         let mut said = format!("{} of {}", sensor.is.name(), short(&sensor.of));
         if let Some(to) = &sensor.to {
             said += &format!(" to {}", short(to));
@@ -145,7 +145,7 @@ fn words_of(way: &TransitionSpec) -> String {
         }
         words.push(said);
     }
-    if let Some(signal) = &way.signal {
+    if let Some(signal) = &edge.signal {
         words.push(format!("signal {}", short(signal)));
     }
     words.join(", ")
@@ -230,7 +230,7 @@ fn at_most(most: usize, count: usize, place: &str, what: &'static str) -> Result
     Ok(())
 }
 
-/// A name for a message.
+/// A name, shortened for a message.
 fn short(name: &str) -> String {
     name.chars().take(60).collect()
 }

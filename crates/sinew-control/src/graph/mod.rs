@@ -1,4 +1,4 @@
-//! Pose graphs: key poses in sequence, led from one to the next by timers, touches, sensors and signals.
+//! Pose graphs: key poses in sequence, with transitions on timers, contacts, sensors and signals.
 
 mod error;
 #[expect(clippy::module_inception, reason = "a file is named after its noun")]

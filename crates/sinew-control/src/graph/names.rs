@@ -1,11 +1,11 @@
-//! What the names in a graph's conditions stand for.
+//! Resolves the names in a graph's conditions.
 
 use crate::pose::PartName;
 use sinew_body::humanoid::Node;
 use sinew_world::{CharacterId, Contact, Entity, Frame};
 use std::collections::BTreeMap;
 
-/// What a name of the scene stands for.
+/// The object of a name of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Touchable {
     /// One thing.
@@ -16,7 +16,7 @@ pub enum Touchable {
 
 /// The scene's names: characters, objects, and aliases of parts. Own parts and `ground` need not be among them.
 pub trait Names {
-    /// What a name stands for.
+    /// The object of a name.
     fn find(&self, name: &str) -> Option<Touchable>;
 
     /// All names, for messages.
@@ -77,7 +77,7 @@ impl Thing {
 }
 
 impl Touchable {
-    /// Whether it is this, or this is a part of it.
+    /// Whether the entity is this object or a part of it.
     pub fn is(self, entity: Entity) -> bool {
         match self {
             Touchable::One(one) => one == entity,

@@ -1,4 +1,4 @@
-//! A graph being played.
+//! The player of a graph.
 
 use super::names::contact_between;
 use super::{Graph, Steering};
@@ -7,33 +7,34 @@ use sinew_snapshot::snapshot;
 use sinew_world::{CharacterId, Contact, Entity, Frame};
 use std::fmt;
 
-/// One character's place in a graph. The graph is handed to each call, so that many players may share it.
+/// The state of one character in a graph. The graph is passed to each call, so that many players can share it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GraphPlayer {
     state: usize,
-    /// Steps that the state has lasted.
+    /// Number of steps in the present state.
     steps: u64,
     step_secs: f64,
 }
 
 snapshot!(GraphPlayer { state, steps } fixed { step_secs } valid |player| player.steps <= u64::MAX / 2);
 
-/// A state left and another begun.
+/// A transition that was taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
-    /// Place of the state that is left.
+    /// Index of the previous state.
     pub from: usize,
-    /// Place of the state that begins.
+    /// Index of the new state.
     pub to: usize,
-    /// Which of the ways out of `from` was taken, in the order of the file.
-    pub way: usize,
-    /// Time that the state lasted \[s\].
+    /// Index of the transition among those of `from`, in the order of the file.
+    pub edge: usize,
+    /// Time spent in the previous state \[s\].
     pub lasted_secs: f64,
-    /// What made it so.
+    /// Its cause.
     pub cause: Cause,
 }
 
-/// What made a transition fire. Where it had several conditions, the most telling: a touch, else a sensor, a signal, the timer.
+/// The cause of a transition. With several conditions, the most specific one: a contact, else a sensor, a signal, the
+/// timer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cause {
     /// Time was up.
@@ -47,12 +48,12 @@ pub enum Cause {
 }
 
 impl GraphPlayer {
-    /// At the graph's first state, for a world that steps so long at a time \[s\].
+    /// A player at the graph's first state, for a world with this step length \[s\].
     pub fn new(graph: &Graph, step_secs: f64) -> GraphPlayer {
         GraphPlayer { state: graph.start, steps: 0, step_secs }
     }
 
-    /// Goes to a state, by name; false when there is none.
+    /// Enters a state by name; false if it does not exist.
     pub fn jump(&mut self, graph: &Graph, name: &str) -> bool {
         let found = graph.state(name);
         if let Some(state) = found {
@@ -76,7 +77,7 @@ impl GraphPlayer {
         &graph.states[self.state].pose_name
     }
 
-    /// What the state changes in its pose.
+    /// The feedback rules of the state.
     pub fn steering<'a>(&self, graph: &'a Graph) -> &'a Steering {
         &graph.states[self.state].steering
     }
@@ -86,8 +87,8 @@ impl GraphPlayer {
         self.steps as f64 * self.step_secs
     }
 
-    /// Goes on by a step, after the world has: takes the first way out whose conditions hold. `signals` are the words sent since
-    /// the last step. At most one transition fires.
+    /// Advances by a step, after the world's step: takes the first transition whose conditions hold. `signals` are
+    /// those sent since the last step. At most one transition fires.
     pub fn step(
         &mut self,
         graph: &Graph,
@@ -96,35 +97,35 @@ impl GraphPlayer {
         signals: &[impl AsRef<str>],
     ) -> Option<Transition> {
         self.steps += 1;
-        for (index, way) in graph.states.get(self.state)?.ways.iter().enumerate() {
+        for (index, edge) in graph.states.get(self.state)?.edges.iter().enumerate() {
             let mut cause = Cause::Timer;
-            if let Some(after_secs) = way.after_secs {
+            if let Some(after_secs) = edge.after_secs {
                 // Whole steps: the one whose end comes nearest to the time.
                 if (self.steps as f64) < libm::round(after_secs / self.step_secs) {
                     continue;
                 }
             }
-            if let Some(word) = &way.signal {
+            if let Some(word) = &edge.signal {
                 if !signals.iter().any(|signal| signal.as_ref() == word) {
                     continue;
                 }
                 cause = Cause::Signal;
             }
-            if let Some(sensor) = &way.sensor {
+            if let Some(sensor) = &edge.sensor {
                 match sensor.fires(frame, own, self.step_secs) {
                     Some(value) => cause = Cause::Sensor(value),
                     None => continue,
                 }
             }
-            if let Some((one, other)) = way.touching {
+            if let Some((one, other)) = edge.touching {
                 match contact_between(frame, one.seen_by(own), other.seen_by(own)) {
                     Some(contact) => cause = Cause::Touch(*contact),
                     None => continue,
                 }
             }
             let transition =
-                Transition { from: self.state, to: way.to, way: index, lasted_secs: self.lasted_secs(), cause };
-            (self.state, self.steps) = (way.to, 0);
+                Transition { from: self.state, to: edge.to, edge: index, lasted_secs: self.lasted_secs(), cause };
+            (self.state, self.steps) = (edge.to, 0);
             return Some(transition);
         }
         None
@@ -141,7 +142,7 @@ impl Transition {
     /// ground with 3.10 N s`.
     pub fn text(&self, graph: &Graph) -> String {
         let (from, to) = self.names(graph);
-        let words = graph.states[self.from].ways.get(self.way).map_or("", |way| way.words.as_str());
+        let words = graph.states[self.from].edges.get(self.edge).map_or("", |edge| edge.words.as_str());
         format!("{from} to {to} after {:.3} s ({words}): {}", self.lasted_secs, self.cause)
     }
 }

@@ -1,4 +1,4 @@
-//! What a graph measures.
+//! Sensors of a graph.
 
 use super::names::{Thing, Touchable};
 use super::spec::Quantity;
@@ -19,14 +19,14 @@ pub(super) struct Sensor {
 const IN_THE_AIR_M: f64 = -1000.0;
 
 impl Sensor {
-    /// Its value, where it lies beyond the thresholds.
+    /// Its value, if it is beyond the thresholds.
     pub(super) fn fires(&self, frame: &Frame, own: CharacterId, step_secs: f64) -> Option<f64> {
         let value = self.value(frame, own, step_secs)?;
         let fires = self.below.is_none_or(|below| value < below) && self.above.is_none_or(|above| value > above);
         (fires && value.is_finite()).then_some(value)
     }
 
-    /// `None` for something that is not in the frame.
+    /// `None` for an object that is not in the frame.
     fn value(&self, frame: &Frame, own: CharacterId, step_secs: f64) -> Option<f64> {
         let character = frame.character(own)?;
         let of = self.of.seen_by(own);
@@ -69,7 +69,7 @@ fn body(frame: &Frame, thing: Touchable) -> Option<&BodyState> {
         Touchable::One(Entity::Floor) => None,
         Touchable::One(Entity::Prop(index)) => frame.prop(index),
         Touchable::One(Entity::Part(index, node)) => Some(frame.character(index)?.part(node)),
-        // Of a whole body, the hips say how it is turned.
+        // The rotation of a whole body is that of its hips.
         Touchable::Character(index) => frame.character(index)?.parts.first(),
     }
 }

@@ -4,7 +4,7 @@ use crate::pose::{PartName, number};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Key poses in sequence, with what leads from one to the next.
+/// A pose graph: key poses as states, with transitions between them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GraphSpec {
@@ -20,52 +20,52 @@ pub struct GraphSpec {
 pub struct StateSpec {
     /// The key pose to aim at.
     pub pose: String,
-    /// What leads out of the state. They are looked at in this order, and the first whose conditions all hold is taken.
+    /// Transitions out of the state. They are checked in this order, and the first whose conditions all hold is taken.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub to: Vec<TransitionSpec>,
-    /// Turns of joints in proportion to where the centre of mass is.
+    /// Balance feedback: rotations of joints in proportion to the position and velocity of the centre of mass.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub feedback: Vec<FeedbackSpec>,
-    /// Parts whose wanted turn is measured from an upright frame that faces as their parents do, not from their parents: a foot
-    /// with a turn of 0 is level whatever its leg does.
+    /// Parts whose target rotation is relative to an upright frame with their parent's heading, not to their parent: a
+    /// foot with rotation 0 is level for any pose of its leg.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub upright: Vec<PartName>,
-    /// Which leg carries the body.
+    /// The stance leg.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stance: Option<LegSide>,
-    /// The leg that carries turns the hips to `hips_lean_deg` in the world, and the other thigh is upright in the sense of
-    /// `upright`. Needs `stance`.
+    /// The stance leg rotates the hips to `hips_lean_deg` in the world, and the other thigh is upright in the sense of
+    /// `upright`. Requires `stance`.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub world_hips: bool,
     /// Lean of the hips with `world_hips` \[degrees\], forward positive, -90 to 90.
     #[serde(default, deserialize_with = "number::lean", skip_serializing_if = "is_zero")]
     #[schemars(range(min = -90, max = 90))]
     pub hips_lean_deg: f64,
-    /// Where the hips are turned to with `world_hips` \[degrees about +Y from +Z to +X, -360 to 360\]; when left out they keep the
-    /// facing that they have.
+    /// Heading of the hips with `world_hips` \[degrees about +Y from +Z to +X, -360 to 360\]. Default: they keep their
+    /// present heading.
     #[serde(default, deserialize_with = "number::some_heading", skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -360, max = 360))]
     pub heading_deg: Option<f64>,
 }
 
-/// A way out of a state. All conditions that are given must hold at once; at least one must be given.
+/// A transition. All given conditions must hold at once; at least one must be given.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TransitionSpec {
     /// The state that it leads to.
     pub state: String,
-    /// The state has lasted at least so long \[s\].
+    /// Minimum time in the state \[s\].
     #[serde(default, deserialize_with = "number::some_secs", skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 3600))]
     pub after_secs: Option<f64>,
-    /// These two touch: an own part, `self` for any own part, `ground`, an object, another character, or one of its parts as
-    /// `name.part`.
+    /// These two are in contact: an own part, `self` for any own part, `ground`, an object, another character, or one
+    /// of its parts as `name.part`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub touching: Option<[String; 2]>,
     /// A measured value lies beyond a threshold.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensor: Option<SensorSpec>,
-    /// This word was sent (by a script, a key, a command).
+    /// This signal was sent (by a script, a key, a command).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub signal: Option<String>,
 }
@@ -77,9 +77,9 @@ pub struct SensorSpec {
     /// What is measured: an own part, `centre` (the own centre of mass), an object, another character, or `name.part`.
     #[serde(default = "centre")]
     pub of: String,
-    /// Which of its values.
+    /// The measured quantity.
     pub is: Quantity,
-    /// To where a distance is measured; named like `of`.
+    /// The other end of a distance; named like `of`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<String>,
     /// Holds below this value, in the quantity's unit.
@@ -104,12 +104,11 @@ pub enum Quantity {
     UpMS,
     /// Angle of a part's own up axis from the vertical \[degrees\].
     TiltDeg,
-    /// Force of all contacts on a part \[N\], the sum of their sizes.
+    /// Sum of the magnitudes of all contact forces on a part \[N\].
     LoadN,
     /// Distance of its centre of mass to that of `to` \[m\].
     DistanceM,
-    /// How far the own centre of mass lies inside the support polygon's edge \[m\], negative outside; far outside (-1000) in the
-    /// air.
+    /// Distance of the own centre of mass inside the support polygon's edge \[m\], negative outside; -1000 in the air.
     ComMarginM,
 }
 
@@ -129,25 +128,25 @@ impl Quantity {
     }
 }
 
-/// Balance feedback in the manner of Yin, Loken and van de Panne 2007: the wanted turn of a joint changes by
-/// `rad_per_m`·d + `rad_per_m_s`·v, where d is how far the centre of mass lies from the part `from` and v its velocity, both
-/// along the facing (axis x) or to the left (axis z).
+/// Balance feedback in the manner of Yin, Loken and van de Panne 2007: the target rotation of a joint changes by
+/// `rad_per_m`·d + `rad_per_m_s`·v, where d is the distance of the centre of mass from the part `from` and v its
+/// velocity, both along the facing (axis x) or to the left (axis z).
 ///
-/// A leg swings forward by a negative turn about x and to the left by a positive one about z, so that stepping after the
-/// centre of mass takes negative numbers for x and positive ones for z.
+/// A leg swings forward by a negative rotation about x and to the left by a positive one about z, so that stepping
+/// towards the centre of mass needs negative gains for x and positive ones for z.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FeedbackSpec {
-    /// The joint that turns, about an axis of its parent.
+    /// The joint that rotates, about an axis of its parent.
     pub joint: PartName,
     /// About which axis.
     pub axis: TurnAxis,
-    /// The part from which the centre of mass is measured; as a rule the foot that stands.
+    /// The part from which the centre of mass is measured; as a rule the stance foot.
     pub from: PartName,
-    /// For the distance \[rad/m\].
+    /// Gain on the distance \[rad/m\].
     #[serde(default, deserialize_with = "number::feedback")]
     pub rad_per_m: f64,
-    /// For the velocity \[rad per m/s\].
+    /// Gain on the velocity \[rad per m/s\].
     #[serde(default, deserialize_with = "number::feedback")]
     pub rad_per_m_s: f64,
 }
@@ -156,9 +155,9 @@ pub struct FeedbackSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TurnAxis {
-    /// To the left: turns forward and backward, fed by what happens along the facing.
+    /// To the left: rotates forward and backward, with feedback of the motion along the facing.
     X,
-    /// Forward: turns sideways, fed by what happens to the left.
+    /// Forward: rotates sideways, with feedback of the motion to the left.
     Z,
 }
 

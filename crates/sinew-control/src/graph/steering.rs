@@ -1,4 +1,4 @@
-//! What a state changes in its pose from how the body moves: balance feedback, upright parts, hips held in the world.
+//! Feedback on the pose of a state: balance feedback, upright parts, hips controlled in the world.
 
 use super::spec::{LegSide, TurnAxis};
 use crate::Wanted;
@@ -14,7 +14,7 @@ pub struct Steering {
     pub(super) world_hips: Option<WorldHips>,
 }
 
-/// How the leg that carries holds the hips in the world.
+/// Control of the hips in the world by the stance leg.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WorldHips {
     pub(super) stance: LegSide,
@@ -34,14 +34,14 @@ pub(super) struct Feedback {
     pub(super) rad_per_m_s: f64,
 }
 
-/// Most that feedback turns a joint \[rad\]: beyond it the body falls anyway, and limbs should not wind themselves up.
+/// Maximum rotation by feedback \[rad\]: beyond it the body falls anyway, and limbs should not wind up.
 const MAX_FEEDBACK: f64 = 1.2;
 
-/// Most that the hips are turned towards their heading at once \[rad\]: a foot that stands holds no more.
+/// Maximum rotation of the hips towards their heading at once \[rad\]: a stance foot cannot transmit more.
 const MAX_TURN: f64 = 0.35;
 
 impl Steering {
-    /// Changes a wanted pose that has been written. Feedback comes first, then parts measured in the world, then the hips.
+    /// Changes a wanted pose. Feedback comes first, then parts controlled in the world, then the hips.
     pub fn apply(&self, frame: &Frame, own: CharacterId, target: &mut Wanted) {
         let Some(character) = frame.character(own) else {
             return;
@@ -67,16 +67,16 @@ impl WorldHips {
         hold_upright(swing, character, target);
         let facing = facing_of(character.part(Node::Hips).rotation);
         let turn = self.heading.map_or(0.0, |heading| {
-            // The short way round.
+            // The shorter arc.
             let left = heading - facing;
             libm::atan2(libm::sin(left), libm::cos(left)).clamp(-MAX_TURN, MAX_TURN)
         });
         let world_from_hips = exp(DVec3::Y * (facing + turn)) * exp(DVec3::X * self.lean);
-        // A turn of the hips against the thigh that carries: as if the thigh stood still in the world.
+        // A rotation of the hips relative to the stance thigh, as if the thigh were fixed in the world.
         let thigh = character.part(stance);
         let joint = target.joint_mut(stance);
         joint.rotation = (world_from_hips.conjugate() * thigh.rotation).normalize();
-        // And damped in the world: the thigh that turns under the hips does not drag them along.
+        // And damped in the world: the rotating thigh does not drag the hips along.
         joint.velocity = finite(thigh.rotation.conjugate() * thigh.angular_velocity);
     }
 }
@@ -96,14 +96,14 @@ impl Feedback {
     }
 }
 
-/// How far a part is turned about the vertical \[rad\].
+/// Heading of a part \[rad\].
 fn facing_of(world_from_part: DQuat) -> f64 {
     swing_twist(world_from_part).2
 }
 
-/// Makes a part's wanted turn one in the world: what the pose says of it is measured from an upright frame. That frame
-/// faces as the parent does, so that a turn about the vertical still goes from part to part: a leg that stands holds the body's
-/// heading.
+/// Makes a part's target rotation one in the world: the pose's rotation is relative to an upright frame. That frame has
+/// the parent's heading, so that rotations about the vertical still propagate from part to part: a stance leg holds the
+/// body's heading.
 fn hold_upright(node: Node, character: &CharacterFrame, target: &mut Wanted) {
     let Some(parent) = node.parent() else {
         return;
@@ -112,7 +112,7 @@ fn hold_upright(node: Node, character: &CharacterFrame, target: &mut Wanted) {
     let joint = target.joint_mut(node);
     let world_from_node = exp(DVec3::Y * facing_of(parent.rotation)) * joint.rotation;
     joint.rotation = (parent.rotation.conjugate() * world_from_node).normalize();
-    // What is wanted in the world is damped in the world, whatever the parent does; but for turns about the vertical.
+    // A target in the world is damped in the world, independent of the parent, except about the vertical.
     let turning = parent.angular_velocity - DVec3::Y * parent.angular_velocity.y;
     joint.velocity -= finite(world_from_node.conjugate() * turning);
 }

@@ -1,4 +1,4 @@
-//! What keeps the wanted pose of a limb on a point while its body moves: the paper's `setIKTarget`.
+//! IK handles keep the hand or foot of the wanted pose on a point while the body moves: the paper's `setIKTarget`.
 
 use crate::Wanted;
 use glam::{DQuat, DVec3};
@@ -6,27 +6,28 @@ use sinew_body::humanoid::{Body, Limb, LimbGoal, Node, exp, log, solve_limb};
 use sinew_snapshot::snapshot;
 use sinew_world::CharacterFrame;
 
-/// Where a limb is to reach.
+/// The goal of a handle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
     /// The point, world \[m\].
     pub target: DVec3,
-    /// What is to come there, in the frame of the hand or foot \[m\]: the centre of what it holds, or its own; see
+    /// The effector in the frame of the hand or foot \[m\]: the centre of the held object, or its own; see
     /// [`Reach::own`].
     pub effector: DVec3,
 }
 
 impl Reach {
-    /// The centre of the hand or foot itself goes to the target.
+    /// A goal for the centre of the hand or foot itself.
     pub fn own(body: &Body, limb: Limb, target: DVec3) -> Reach {
         Reach { target, effector: body.link(limb.nodes()[2]).centre }
     }
 }
 
-/// Time in which a limb goes from the pose to its target and back \[s\].
+/// Duration of the blend from the pose to the target and back \[s\].
 const BLEND_SECS: f64 = 0.2;
 
-/// How fast a limb's swivel returns to that of the pose \[1/s\]: a hand led round in circles must not wind its elbow up.
+/// Rate at which a limb's swivel returns to that of the pose \[1/s\]: a hand moved in circles must not wind up its
+/// elbow.
 const RETURN_RATE: f64 = 2.0;
 
 /// One limb.
@@ -61,37 +62,37 @@ impl Default for IkHandles {
 }
 
 impl IkHandles {
-    /// A limb reaches from now on. Points that are not finite are passed over.
+    /// Sets the goal of a limb. Takes effect in the next step. Points that are not finite are ignored.
     pub fn reach(&mut self, limb: Limb, reach: Reach) {
         if reach.target.is_finite() && reach.effector.is_finite() {
             self.handles[limb.index()].reach = Some(reach);
         }
     }
 
-    /// A limb goes back to the pose.
+    /// Returns a limb to the pose.
     pub fn release(&mut self, limb: Limb) {
         self.handles[limb.index()].reach = None;
     }
 
-    /// All limbs go back to the pose.
+    /// Returns all limbs to the pose.
     pub fn release_all(&mut self) {
         for handle in &mut self.handles {
             handle.reach = None;
         }
     }
 
-    /// Where a limb reaches.
+    /// The goal of a limb.
     pub fn of(&self, limb: Limb) -> Option<Reach> {
         self.handles[limb.index()].reach
     }
 
-    /// How far the wanted pose of a limb stays from its target \[m\], at the last step; 0 for one that does not reach.
+    /// Remaining distance of a limb's wanted pose from its target \[m\], at the last step; 0 without a goal.
     pub fn miss_m(&self, limb: Limb) -> f64 {
         let handle = &self.handles[limb.index()];
         if handle.reach.is_some() { handle.miss_m } else { 0.0 }
     }
 
-    /// Turns the limbs of a wanted pose to their targets, seen from where the body is now.
+    /// Solves the limbs of a wanted pose for their targets, relative to the body's present position.
     pub fn write(&mut self, character: &CharacterFrame, body: &Body, step_secs: f64, target: &mut Wanted) {
         for limb in Limb::ALL {
             self.handles[limb.index()].write(limb, character, body, step_secs, target);
@@ -133,7 +134,7 @@ impl Handle {
     }
 }
 
-/// From one rotation to another, the short way.
+/// Interpolates between two rotations along the shorter arc.
 pub(crate) fn between(from: DQuat, to: DQuat, share: f64) -> DQuat {
     if share <= 0.0 {
         return from;

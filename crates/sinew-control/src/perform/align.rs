@@ -1,4 +1,4 @@
-//! From a performer's space to a character's place and size.
+//! Alignment of a performer's space with a character's position, heading and size.
 
 use super::{BodyProportions, PerformerSample};
 use glam::{DQuat, DVec3};
@@ -6,26 +6,27 @@ use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_snapshot::snapshot;
 use sinew_world::hips_over_soles_m;
 
-/// How a performer is put on the stage: turned about the vertical, scaled by the length of the legs, moved so that at first the
-/// legs stand at the character's place. Rotations are taken as they are, lengths are the character's.
+/// The transform from a performer's space to the stage: rotated about the vertical, scaled by the length of the legs,
+/// moved so that the performance starts at the character's position. Joint rotations do not change, lengths are the
+/// character's.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Alignment {
     turn: DQuat,
     scale: f64,
-    /// Point of the performer's floor below the hip joints that comes to lie on `place`.
+    /// Point of the performer's floor below the hip joints that maps to `place`.
     origin: DVec3,
     place: DVec3,
     performer_hips_to_legs: DVec3,
     character_hips_to_legs: DVec3,
 }
 
-/// The character's side of it.
+/// The character's side of the alignment.
 #[derive(Clone, Debug)]
 pub(super) struct Stand {
     pub body: Body,
     /// The point of the floor where the performance begins \[m\].
     pub place: DVec3,
-    /// Where it faces, from +Z to +X \[rad\].
+    /// Its heading, from +Z to +X \[rad\].
     pub facing_rad: f64,
 }
 
@@ -35,7 +36,8 @@ const SCALES: std::ops::RangeInclusive<f64> = 0.05..=12.0;
 snapshot!(Alignment { turn, scale, origin, place, performer_hips_to_legs, character_hips_to_legs });
 
 impl Alignment {
-    /// From the first sample of a performance. Its lower sole comes to stand on the floor of the character's place.
+    /// The alignment by the first sample of a performance. Its lower sole is placed on the floor at the character's
+    /// position.
     pub fn of(first: &PerformerSample, build: Option<BodyProportions>, stand: &Stand) -> Alignment {
         let body = &stand.body;
         let own = BodyProportions::of(body);
@@ -43,7 +45,7 @@ impl Alignment {
         let hips_height = pose.hips_position.y;
         let (scale, performer_hips_to_legs) = match build {
             Some(build) if build.leg_m() > 0.01 => (own.leg_m() / build.leg_m(), build.hips_to_legs_m()),
-            // No lengths known: the hips are taken to be those of somebody who stands.
+            // Without known lengths the performer is assumed to stand.
             _ if hips_height > 0.05 => (hips_over_soles_m(body, &Pose::STANDING) / hips_height, own.hips_to_legs_m()),
             _ => (1.0, own.hips_to_legs_m()),
         };

@@ -1,24 +1,24 @@
-//! From one motion to another without a pop: what is shown keeps its distance from the new motion at first, and the distance
-//! then dies out.
+//! Inertial blending from one motion to another: the initial difference to the new motion is kept and decays.
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
 use sinew_snapshot::snapshot;
 
-/// How fast a blend may move any part on top of the motion \[m/s\].
+/// Maximum speed of a part relative to the motion during a blend \[m/s\].
 const MAX_M_S: f64 = 0.8;
 
-/// How far a turn of a joint moves what hangs from it, about \[m/rad\].
+/// Approximate lever arm of a joint's rotation \[m/rad\].
 const REACH_M: f64 = 0.5;
 
 /// The steepest slope of the fading, which is 1 - (6 x⁵ - 15 x⁴ + 10 x³).
 const STEEPEST: f64 = 1.875;
 
-/// A distance between shown and wanted that dies out.
+/// A decaying difference between shown and wanted pose.
 #[derive(Clone, Debug)]
 pub(super) struct Blend {
     hips: DVec3,
-    /// Of the hips in the world, of all others against their parents, as rotation vectors in the node's frame.
+    /// Rotation vectors in the node's frame: of the hips relative to the world, of all others relative to their
+    /// parents.
     turns: [DVec3; Node::COUNT],
     gone_secs: f64,
     lasts_secs: f64,
@@ -32,12 +32,12 @@ impl Blend {
         Blend { hips: DVec3::ZERO, turns: [DVec3::ZERO; Node::COUNT], gone_secs: 0.0, lasts_secs: 0.0 }
     }
 
-    /// Begins at a shown pose; `wanted` is what the new motion has at the same instant. Lasts at least so long, and longer where
-    /// the way is far.
+    /// Starts at a shown pose; `wanted` is the new motion's pose at the same instant. Lasts at least `for_secs`, and
+    /// longer for a large difference.
     pub fn begin(shown: &Pose, wanted: &Pose, least_secs: f64) -> Blend {
         let hips = shown.hips_position - wanted.hips_position;
         let turns = Node::ALL.map(|node| log((wanted.local(node).conjugate() * shown.local(node)).normalize()));
-        // The way of each part: that of the hips, and of all turns from there to it.
+        // The distance of each part: that of the hips, plus those by all rotations from there to it.
         let mut ways = [hips.length(); Node::COUNT];
         for node in Node::ALL {
             let above = node.parent().map_or(hips.length(), |parent| ways[parent.index()]);
@@ -47,12 +47,12 @@ impl Blend {
         Blend { hips, turns, gone_secs: 0.0, lasts_secs: needed.max(least_secs) }
     }
 
-    /// Time goes by.
+    /// Advances in time.
     pub fn advance(&mut self, step_secs: f64) {
         self.gone_secs = (self.gone_secs + step_secs).min(self.lasts_secs);
     }
 
-    /// The wanted pose with what is left of the distance.
+    /// The wanted pose plus the remaining difference.
     pub fn over(&self, wanted: &Pose) -> Pose {
         if self.gone_secs >= self.lasts_secs {
             return *wanted;

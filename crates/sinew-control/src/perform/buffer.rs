@@ -1,18 +1,18 @@
-//! Poses by the sender's time, and the pose at any time between them.
+//! The jitter buffer: poses by the sender's time, and interpolation at any time between them.
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
 use sinew_snapshot::snapshot;
 use std::collections::VecDeque;
 
-/// Poses that are kept: half a second at 120 Hz.
-const MOST: usize = 64;
+/// Capacity: half a second at 120 Hz.
+const CAPACITY: usize = 64;
 
-/// How fast a motion that is carried on beyond its last pose dies out \[s\].
+/// Decay time of the extrapolated velocity beyond the last pose \[s\].
 const DECAY_SECS: f64 = 0.05;
 
-/// The longest gap over which a velocity is measured \[s\].
-const LONGEST_GAP_SECS: f64 = 0.1;
+/// Maximum gap over which a velocity is measured \[s\].
+const MAX_GAP_SECS: f64 = 0.1;
 
 /// One pose of the stream.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,11 +28,11 @@ pub(super) struct Buffer {
 }
 
 snapshot!(Entry { time_secs, pose });
-snapshot!(Buffer { entries } valid |buffer| buffer.entries.len() <= MOST);
+snapshot!(Buffer { entries } valid |buffer| buffer.entries.len() <= CAPACITY);
 
 impl Buffer {
     pub fn new() -> Buffer {
-        Buffer { entries: VecDeque::with_capacity(MOST + 1) }
+        Buffer { entries: VecDeque::with_capacity(CAPACITY + 1) }
     }
 
     pub fn clear(&mut self) {
@@ -43,7 +43,7 @@ impl Buffer {
         self.entries.is_empty()
     }
 
-    /// How many poses wait, those behind the playhead not yet dropped included.
+    /// Number of buffered poses, including those behind the playhead that are not yet dropped.
     pub fn len(&self) -> usize {
         self.entries.len()
     }
@@ -53,7 +53,7 @@ impl Buffer {
         self.entries.back()
     }
 
-    /// The pose closest in time, whichever side.
+    /// The pose closest in time, before or after.
     pub fn nearest(&self, time_secs: f64) -> Option<&Entry> {
         let at = self.place_of(time_secs);
         let (before, after) = (at.checked_sub(1).and_then(|at| self.entries.get(at)), self.entries.get(at));
@@ -69,26 +69,26 @@ impl Buffer {
         self.entries.get(self.place_of(time_secs)).map(|entry| entry.time_secs)
     }
 
-    /// Where a pose of this time belongs.
+    /// Index at which a pose of this time is inserted.
     fn place_of(&self, time_secs: f64) -> usize {
         self.entries.partition_point(|entry| entry.time_secs < time_secs)
     }
 
-    /// Adds a pose in its place; the oldest gives way. Returns its distances in time to its neighbours \[s\].
+    /// Inserts a pose in order; a full buffer drops the oldest. Returns its distances in time to its neighbours \[s\].
     pub fn insert(&mut self, entry: Entry) -> [Option<f64>; 2] {
         let at = self.place_of(entry.time_secs);
         let before = at.checked_sub(1).and_then(|at| self.entries.get(at)).map(|one| entry.time_secs - one.time_secs);
         let after = self.entries.get(at).map(|one| one.time_secs - entry.time_secs);
         self.entries.insert(at, entry);
-        if self.entries.len() > MOST {
+        if self.entries.len() > CAPACITY {
             self.entries.pop_front();
         }
         [before, after]
     }
 
-    /// Drops the oldest pose when it lies wholly behind the playhead, and says how long it lasted until the next.
+    /// Drops the oldest pose if it lies wholly behind the playhead, and returns the time from it to the next.
     pub fn pass(&mut self, playhead_secs: f64) -> Option<f64> {
-        // Two behind the playhead stay, so that a velocity is known.
+        // Two poses behind the playhead are kept, so that a velocity is known.
         let third = self.entries.get(2)?;
         if third.time_secs > playhead_secs {
             return None;
@@ -97,7 +97,8 @@ impl Buffer {
         self.entries.front().map(|next| next.time_secs - gone.time_secs)
     }
 
-    /// The pose at a time: between two it is interpolated, before the first it is the first, after the last the motion runs out.
+    /// The pose at a time: interpolated between two, the first one before it, extrapolated with decaying velocity after
+    /// the last.
     pub fn at(&self, time_secs: f64) -> Option<Pose> {
         let next = self.place_of(time_secs);
         match (next.checked_sub(1).and_then(|at| self.entries.get(at)), self.entries.get(next)) {
@@ -116,7 +117,7 @@ impl Buffer {
             return last.pose;
         };
         let gap = last.time_secs - before.time_secs;
-        if !(1e-4..=LONGEST_GAP_SECS).contains(&gap) {
+        if !(1e-4..=MAX_GAP_SECS).contains(&gap) {
             return last.pose;
         }
         let reach = DECAY_SECS * (1.0 - libm::exp(-ahead_secs / DECAY_SECS)) / gap;
@@ -140,7 +141,7 @@ fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
     from.slerp(to, share).normalize()
 }
 
-/// The largest turn of a joint \[rad\] and the way of the hips \[m\] from one pose to another.
+/// The largest rotation of a joint \[rad\] and the displacement of the hips \[m\] between two poses.
 pub(super) fn distance(from: &Pose, to: &Pose) -> (f64, f64) {
     let turns = Node::ALL.map(|node| {
         let apart: DVec3 = log((from.local(node).conjugate() * to.local(node)).normalize());

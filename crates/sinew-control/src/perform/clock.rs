@@ -1,7 +1,7 @@
-//! How the sender's clock stands against the stage's, and how unsteady the way between them is.
+//! Clock synchronisation: offset of the sender's clock to the stage's, drift, and network jitter.
 //!
-//! The smallest difference between arrival and time stamp in the last seconds is the offset of the clocks plus the shortest way.
-//! Because it is forgotten after that time, a clock that runs fast or slow is followed: 100 ppm make 0.4 ms in four seconds.
+//! The minimum difference between arrival and time stamp in the last seconds is the offset of the clocks plus the
+//! minimum latency. It expires after that time, so that clock drift is followed: 100 ppm make 0.4 ms in four seconds.
 
 use sinew_snapshot::snapshot;
 
@@ -11,19 +11,19 @@ const BUCKETS: usize = 16;
 /// Length of a bucket \[s\].
 const BUCKET_SECS: f64 = 0.25;
 
-/// Share of the samples that shall come in time \[1\].
+/// Target share of samples that arrive in time \[1\].
 const IN_TIME: f64 = 0.97;
 
-/// How far one sample moves the estimate of the jitter \[s\].
+/// Step by which one sample moves the estimate of the jitter \[s\].
 const STEP_SECS: f64 = 1e-3;
 
-/// Samples late in a row that mean that the way has become longer for good.
+/// Number of late samples in a row that indicate a permanently larger latency.
 const MAX_LATE: u32 = 6;
 
-/// Intervals whose median is the sender's.
+/// Number of intervals whose median is the sender's interval.
 const INTERVALS: usize = 32;
 
-/// The sender's clock seen from the stage.
+/// An estimate of the sender's clock.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
     minima: [f64; BUCKETS],
@@ -58,14 +58,14 @@ impl Clock {
         }
     }
 
-    /// The sender begins anew.
+    /// Resets for a restarted sender.
     pub fn restart(&mut self) {
         self.minima = [f64::INFINITY; BUCKETS];
         self.begun = false;
         self.late_in_a_row = 0;
     }
 
-    /// A sample of the sender's time arrives. `is_late`: too late to be used.
+    /// Updates with a sample. `is_late`: it arrived too late to be used.
     pub fn observe(&mut self, arrival_secs: f64, time_secs: f64, is_late: bool) {
         let bucket = (arrival_secs.max(0.0) / BUCKET_SECS) as u64;
         if !self.begun || bucket.saturating_sub(self.bucket) >= BUCKETS as u64 {
@@ -87,7 +87,7 @@ impl Clock {
         if self.late_in_a_row >= MAX_LATE {
             self.jitter_secs = self.jitter_secs.max(way);
             if way > self.most_jitter_secs {
-                // Longer than any delay that we allow: what was shortest before is no measure any more.
+                // Longer than the maximum delay: the previous minimum is obsolete.
                 self.minima = [f64::INFINITY; BUCKETS];
                 self.minima[(self.bucket % BUCKETS as u64) as usize] = difference;
                 self.jitter_secs = FIRST_JITTER_SECS;
@@ -111,26 +111,26 @@ impl Clock {
         self.interval_secs = sorted[self.known / 2];
     }
 
-    /// Stage time minus sender time, by the shortest way of the last seconds \[s\].
+    /// Stage time minus sender time, at the minimum latency of the last seconds \[s\].
     pub fn offset_secs(&self) -> f64 {
         self.minima.iter().copied().fold(f64::INFINITY, f64::min)
     }
 
-    /// How long samples are kept back beyond the shortest way \[s\]: until the next one is there, jitter included.
+    /// Delay of the buffer beyond the minimum latency \[s\]: one interval plus jitter.
     pub fn delay_secs(&self) -> f64 {
         self.interval_secs + self.jitter_secs
     }
 
-    /// The sender's usual time from sample to sample \[s\].
+    /// The sender's median interval \[s\].
     pub fn interval_secs(&self) -> f64 {
         self.interval_secs
     }
 }
 
-/// Jitter that is expected at first \[s\].
+/// Initial estimate of the jitter \[s\].
 const FIRST_JITTER_SECS: f64 = 0.01;
 
-/// Interval that is expected at first \[s\].
+/// Initial estimate of the interval \[s\].
 const FIRST_INTERVAL_SECS: f64 = 1.0 / 60.0;
 
 #[cfg(test)]

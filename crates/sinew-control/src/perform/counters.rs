@@ -1,33 +1,33 @@
-//! What came of a performer's samples.
+//! Statistics of a performer's samples.
 
 use serde::Serialize;
 use sinew_snapshot::snapshot;
 
-/// Samples by their fate. All but [`lost`](PerformCounters::lost) are exact; every received sample is counted in exactly one of
-/// `used`, `late`, `duplicates`, `stale`, `untracked`, `non_finite`, `non_unit` and `jumps`.
+/// Counts of samples by outcome. All but [`lost`](PerformCounters::lost) are exact; every received sample is counted in
+/// exactly one of `used`, `late`, `duplicates`, `stale`, `untracked`, `non_finite`, `non_unit` and `jumps`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct PerformCounters {
     /// Samples that arrived.
     pub received: u64,
-    /// Of these, those that found their way into the pose.
+    /// Of these, those that were used for the pose.
     pub used: u64,
     /// Of the used ones, those that arrived after a later one.
     pub reordered: u64,
-    /// Arrived when their time was over.
+    /// Arrived too late to be used.
     pub late: u64,
-    /// Arrived before.
+    /// Duplicates of earlier samples.
     pub duplicates: u64,
-    /// Of another time altogether: a second and more before or after the others.
+    /// With a time stamp a second or more before or after the others.
     pub stale: u64,
-    /// The sender did not see its performer.
+    /// The sender did not track its performer.
     pub untracked: u64,
-    /// With numbers that are none.
+    /// With NaN or infinite numbers.
     pub non_finite: u64,
-    /// With turns that are no rotations.
+    /// With quaternions that are not normalised.
     pub non_unit: u64,
     /// Farther from their neighbours than a body can move.
     pub jumps: u64,
-    /// Never arrived, as far as is known.
+    /// Lost: never arrived, as far as is known.
     pub lost: u64,
     /// Whether `lost` was estimated from time stamps, because the sender does not number its samples.
     pub lost_is_estimate: bool,
@@ -38,7 +38,7 @@ snapshot!(PerformCounters {
 } valid |counters| counters.received.max(counters.rejected()).max(counters.lost) <= u64::MAX / 2);
 
 impl PerformCounters {
-    /// Samples thrown out for what they are: duplicates, stale ones and bad ones.
+    /// Samples that the outlier filter rejected: duplicates, stale and invalid ones.
     pub fn rejected(&self) -> u64 {
         self.duplicates + self.stale + self.non_finite + self.non_unit + self.jumps
     }

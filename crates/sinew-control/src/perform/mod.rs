@@ -9,8 +9,8 @@
 //!                      to body                 the sender  relax, return
 //! ```
 //!
-//! Nguyen et al. 2010, section 3.1, took their capture system's poses as they came; over a network they come late, twice, out of
-//! order or not at all.
+//! Nguyen et al. 2010, section 3.1, took their capture system's poses as they came; over a network they arrive late,
+//! twice, out of order or not at all.
 
 mod align;
 mod blend;

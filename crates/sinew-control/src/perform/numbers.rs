@@ -1,14 +1,14 @@
-//! Which numbers of a numbered stream have come.
+//! Sequence numbers of a stream: which have arrived, and how many are lost.
 
 use sinew_snapshot::snapshot;
 
-/// The last so many numbers, and how many there were in all.
+/// A window of the last sequence numbers, and the count of all.
 #[derive(Clone, Debug)]
 pub(super) struct Numbers {
     /// One bit a number, by the number modulo the window.
     seen: [u64; WORDS],
     span: Option<Span>,
-    /// Missing numbers of earlier spans: a sender that begins anew counts anew.
+    /// Missing numbers of earlier runs: a restarted sender counts from a new start.
     lost_before: u64,
 }
 
@@ -21,7 +21,7 @@ struct Span {
 
 const WORDS: usize = 32;
 
-/// Numbers that are remembered one by one.
+/// Size of the window.
 const WINDOW: u64 = 64 * WORDS as u64;
 
 snapshot!(Span { lowest, highest, distinct }
@@ -33,7 +33,7 @@ impl Numbers {
         Numbers { seen: [0; WORDS], span: None, lost_before: 0 }
     }
 
-    /// Takes a number down. False when it was there before, or is so old that nobody knows.
+    /// Registers a number. False for a duplicate, or for one older than the window.
     pub fn take(&mut self, number: u64) -> bool {
         let Some(span) = &mut self.span else {
             self.begin(number);
@@ -42,7 +42,7 @@ impl Numbers {
         if number > span.highest {
             let ahead = number - span.highest;
             if ahead >= WINDOW {
-                // Not a gap, but another count.
+                // Not a gap, but a new count.
                 self.lost_before += span.lost();
                 self.begin(number);
                 return true;
@@ -60,7 +60,7 @@ impl Numbers {
         true
     }
 
-    /// The sender begins anew.
+    /// Resets for a restarted sender.
     pub fn restart(&mut self, number: u64) {
         self.lost_before += self.span.map_or(0, |span| span.lost());
         self.begin(number);
@@ -72,12 +72,12 @@ impl Numbers {
         self.span = Some(Span { lowest: number, highest: number, distinct: 1 });
     }
 
-    /// Whether the sender numbers its samples at all.
+    /// Whether the sender numbers its samples.
     pub fn any(&self) -> bool {
         self.span.is_some()
     }
 
-    /// Numbers between the first and the last that have not come.
+    /// Numbers between the first and the last that have not arrived.
     pub fn lost(&self) -> u64 {
         self.lost_before + self.span.map_or(0, |span| span.lost())
     }

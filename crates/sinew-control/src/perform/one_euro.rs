@@ -1,11 +1,11 @@
-//! The One-Euro filter (Casiez, Roussel, Vogel 2012): a first-order low-pass whose cut-off rises with speed, so that a body at
-//! rest does not tremble and a fast one does not lag.
+//! The One-Euro filter (Casiez, Roussel, Vogel 2012): a first-order low-pass whose cut-off rises with speed, so that a
+//! body at rest does not jitter and a fast one does not lag.
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
 use sinew_snapshot::snapshot;
 
-/// Cut-off gained with speed \[Hz per m/s or rad/s\]: at a walk's 1.3 m/s the hips lag by 5 ms.
+/// Increase of the cut-off with speed \[Hz per m/s or rad/s\]: at a walk's 1.3 m/s the hips lag by 5 ms.
 const BETA: f64 = 20.0;
 
 /// Cut-off of the speed's own low-pass \[Hz\].
@@ -26,7 +26,7 @@ impl OneEuro {
         OneEuro { smoothing_hz, speeds: [DVec3::ZERO; 1 + Node::COUNT] }
     }
 
-    /// The next pose, from the one given out before.
+    /// The next filtered pose, from the previous one.
     pub fn next(&mut self, before: &Pose, raw: &Pose, step_secs: f64) -> Pose {
         if self.smoothing_hz <= 0.0 {
             return *raw;

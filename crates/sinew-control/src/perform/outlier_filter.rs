@@ -1,4 +1,4 @@
-//! Which samples are fit to be shown.
+//! The outlier filter: which samples are valid and plausible.
 
 use super::buffer::{Buffer, distance};
 use super::numbers::Numbers;
@@ -6,55 +6,56 @@ use super::{PerformCounters, PerformerSample, SampleStatus};
 use sinew_body::humanoid::Pose;
 use sinew_snapshot::snapshot;
 
-/// Beyond this a sample is of another time \[s\].
+/// Maximum difference of a sample's time stamp from the present time \[s\].
 const STALE_SECS: f64 = 1.0;
 
-/// How far a turn's length may be from 1: single precision and a sender's own rounding stay far below.
+/// Tolerance of a quaternion's length: single precision and a sender's own rounding stay far below.
 const UNIT_ERROR: f64 = 0.01;
 
-/// The fastest turn of a joint \[rad/s\]: a boxer's forearm has about 25.
+/// Maximum angular speed of a joint \[rad/s\]: a boxer's forearm has about 25.
 const MAX_RAD_S: f64 = 40.0;
 
-/// What a joint may turn on top, whatever the time \[rad\].
+/// Additional tolerance of a joint's rotation, independent of time \[rad\].
 const SPARE_RAD: f64 = 0.35;
 
-/// The fastest hips \[m/s\]: a sprinter's have 12 at the very most.
+/// Maximum speed of the hips \[m/s\]: a sprinter's reach at most 12.
 const MAX_M_S: f64 = 12.0;
 
-/// What the hips may move on top, whatever the time \[m\].
+/// Additional tolerance of the hips' displacement, independent of time \[m\].
 const SPARE_M: f64 = 0.15;
 
-/// So many samples in a row that fit one another but not what was before are a new beginning.
+/// Number of consecutive samples, consistent with each other but not with the earlier ones, after which the stream
+/// counts as restarted.
 const NEW_BEGINNING: u32 = 10;
 
-/// What is to be done with a sample.
+/// Verdict on a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
-    /// It goes into the buffer.
+    /// Accepted into the buffer.
     Use,
-    /// It goes into an empty buffer: the stream begins anew.
+    /// Accepted into an emptied buffer: the stream restarts.
     Begin,
-    /// It is late: only the clock may learn from it.
+    /// Late: only the clock uses it.
     Late,
-    /// It is thrown out.
+    /// Rejected.
     Drop,
 }
 
-/// Looks at samples as they come.
+/// The filter, updated by every sample.
 #[derive(Clone, Debug)]
 pub(super) struct OutlierFilter {
     numbers: Numbers,
     counters: PerformCounters,
-    /// The last sample that did not fit, and how many in a row fitted the one before.
+    /// The last rejected sample, and the number of consecutive samples consistent with it.
     odd: Option<(f64, Pose)>,
     odd_in_a_row: u32,
     newest_arrival_secs: f64,
 }
 
-/// What a sample is seen against.
+/// The context for checking a sample.
 pub(super) struct Around<'a> {
     pub arrival_secs: f64,
-    /// Sender's time that is shown; `None` before anything is.
+    /// Sender's time of the playhead; `None` before the first sample.
     pub playhead_secs: Option<f64>,
     pub buffer: &'a Buffer,
     /// The sample as a pose of the character, and metres of it per metre of the performer.
@@ -85,7 +86,7 @@ impl OutlierFilter {
         counters
     }
 
-    /// What can be told from the sample alone. False throws it out.
+    /// Checks of the sample alone. False rejects it.
     pub fn is_sound(&mut self, sample: &PerformerSample) -> bool {
         self.counters.received += 1;
         let count = match sample.status {
@@ -101,7 +102,7 @@ impl OutlierFilter {
         false
     }
 
-    /// What can be told from the samples around it.
+    /// Checks against neighbouring samples.
     pub fn judge(&mut self, sample: &PerformerSample, around: &Around) -> Verdict {
         let verdict = self.verdict(sample, around);
         match verdict {
@@ -131,7 +132,7 @@ impl OutlierFilter {
         let ahead = time - newest.time_secs;
         let passed = (around.arrival_secs - self.newest_arrival_secs).max(0.0);
         if ahead < -STALE_SECS || ahead - passed > STALE_SECS {
-            // A stream that begins anew goes on in its new time.
+            // A restarted stream continues in its new time.
             let goes_on = |(before, _): (f64, Pose)| (0.0..STALE_SECS).contains(&(time - before)) && time > before;
             if self.is_new_beginning(time, around.pose, goes_on) {
                 if let Some(number) = sample.number {
@@ -183,7 +184,7 @@ impl OutlierFilter {
         self.odd_in_a_row >= NEW_BEGINNING
     }
 
-    /// Samples that the sender seems to have sent between two that came, when it does not number them.
+    /// Estimated number of samples lost between two that arrived, for a sender without sequence numbers.
     pub fn estimate_lost(&mut self, gap_secs: f64, interval_secs: f64) {
         if gap_secs < STALE_SECS {
             self.counters.lost += ((gap_secs / interval_secs).round() as u64).saturating_sub(1);

@@ -7,10 +7,11 @@ use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_motion::Part;
 use sinew_snapshot::snapshot;
 
-/// What a capture system says of a performer at one instant, in our axes: right-handed, Y up, +Z forward, +X to the left.
+/// A capture system's measurement of a performer at one instant, in our axes: right-handed, Y up, +Z forward, +X to the
+/// left.
 ///
-/// Numbers are whole millionths, so that a sample has the same bits in memory, in a take and on the wire, and none of them can
-/// be anything but finite.
+/// Numbers are integers in millionths, so that a sample has the same bits in memory, in a take and on the wire, and
+/// cannot be NaN or infinite.
 ///
 /// ```
 /// use sinew_body::humanoid::{Body, Pose};
@@ -23,20 +24,20 @@ use sinew_snapshot::snapshot;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PerformerSample {
-    /// When, by the sender's own clock, whose zero is anywhere \[s\].
+    /// Time by the sender's own clock, with an arbitrary zero \[s\].
     pub time_secs: f64,
-    /// Running number, from senders that count their samples.
+    /// Sequence number, from senders that number their samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub number: Option<u64>,
-    /// How far it can be trusted.
+    /// Its validity.
     #[serde(default, skip_serializing_if = "SampleStatus::is_tracked")]
     pub status: SampleStatus,
-    /// Where the hips are in the performer's space, Y from the floor \[µm\].
+    /// Position of the hips in the performer's space, Y from the floor \[µm\].
     pub hips_um: [i32; 3],
     /// `parent_from_part` of every part in the order of [`Part::ALL`], quaternions x, y, z, w \[millionths\]. All are the
     /// identity in the T-pose, facing +Z; the hips' is `space_from_hips`. A part that the sender does not know is the identity.
     pub turns_e6: [[i32; 4]; Part::COUNT],
-    /// Lengths of the performer, now and then.
+    /// Proportions of the performer; not in every sample.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub build: Option<BodyProportions>,
 }
@@ -45,12 +46,12 @@ pub struct PerformerSample {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SampleStatus {
-    /// The performer is seen.
+    /// The performer is tracked.
     #[default]
     Tracked,
-    /// The sender says that it does not see its performer.
+    /// The sender does not track its performer.
     Untracked,
-    /// The sender sent numbers that are none.
+    /// The sender sent NaN or infinite numbers.
     NonFinite,
 }
 
@@ -70,7 +71,7 @@ snapshot!(BodyProportions { hips_to_legs_um, leg_um });
 const E6: f64 = 1e6;
 
 fn millionths(value: f64) -> i32 {
-    // `as` saturates, and makes 0 of what is no number.
+    // `as` saturates, and converts NaN to 0.
     (value * E6).round() as i32
 }
 
@@ -111,8 +112,8 @@ impl BodyProportions {
 }
 
 impl PerformerSample {
-    /// From a place of the hips \[m\] and `parent_from_part` turns in the order of [`Part::ALL`]. Numbers that are not finite
-    /// make a sample of status [`SampleStatus::NonFinite`].
+    /// A sample from the position of the hips \[m\] and `parent_from_part` rotations in the order of [`Part::ALL`].
+    /// Numbers that are not finite give the status [`SampleStatus::NonFinite`].
     pub fn new(time_secs: f64, hips_m: DVec3, turns: &[DQuat; Part::COUNT]) -> PerformerSample {
         let is_finite = hips_m.is_finite() && turns.iter().all(|turn| turn.is_finite());
         PerformerSample {
@@ -125,28 +126,28 @@ impl PerformerSample {
         }
     }
 
-    /// What a performer of this body who has this pose would send, lengths included.
+    /// The sample of a performer with this body and pose, proportions included.
     pub fn of_pose(time_secs: f64, pose: &Pose, body: &Body) -> PerformerSample {
         let sample = PerformerSample::new(time_secs, pose.hips_position, &turns_of(pose));
         PerformerSample { build: Some(BodyProportions::of(body)), ..sample }
     }
 
-    /// Where the hips are in the performer's space \[m\].
+    /// Position of the hips in the performer's space \[m\].
     pub fn hips_m(&self) -> DVec3 {
         DVec3::from(self.hips_um.map(whole))
     }
 
-    /// `parent_from_part` as it was sent, of about unit length in a sound sample.
+    /// `parent_from_part` as received, of about unit length in a valid sample.
     pub fn turn(&self, part: Part) -> DQuat {
         DQuat::from_array(self.turns_e6[part as usize].map(whole))
     }
 
-    /// By how much the worst turn's length differs from 1.
+    /// Largest deviation of a quaternion's length from 1.
     pub fn unit_error(&self) -> f64 {
         self.turns_e6.iter().map(|turn| (DQuat::from_array(turn.map(whole)).length() - 1.0).abs()).fold(0.0, f64::max)
     }
 
-    /// The pose of the 18 bodies in the performer's space; turns are brought to unit length.
+    /// The pose of the 18 bodies in the performer's space; quaternions are normalised.
     pub fn pose(&self) -> Pose {
         let turns = std::array::from_fn(|at| self.turn(Part::ALL[at]).normalize());
         pose_of(self.hips_m(), &turns)

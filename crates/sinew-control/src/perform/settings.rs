@@ -1,17 +1,17 @@
-//! How a live source behaves.
+//! Settings of a live source.
 
 /// Times and filters of a [`LiveSource`](super::LiveSource).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LiveSettings {
-    /// How long the last pose is held when nothing comes \[s\].
+    /// Time for which the last pose is held when the stream is silent \[s\].
     pub hold_secs: f64,
-    /// How long it then takes, at least, to relax into standing \[s\].
+    /// Minimum time of the following blend to standing \[s\].
     pub relax_secs: f64,
     /// Factor on the stiffness when relaxed \[1\].
     pub relaxed_gain: f64,
     /// Cut-off of the One-Euro filter at rest \[Hz\]; 0 switches it off.
     pub smoothing_hz: f64,
-    /// The longest that samples may be kept back to even out a network's jitter \[s\].
+    /// Maximum delay of the jitter buffer \[s\].
     pub most_jitter_secs: f64,
 }
 

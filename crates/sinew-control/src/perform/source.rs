@@ -1,4 +1,4 @@
-//! The source: samples in, a target for every step out.
+//! The live source: samples in, a wanted pose for every step out.
 
 use super::align::{Alignment, Stand};
 use super::blend::Blend;
@@ -12,23 +12,23 @@ use sinew_body::humanoid::{Body, Node, Pose, exp, log};
 use sinew_snapshot::snapshot;
 use sinew_world::hips_over_soles_m;
 
-/// What the performer is to the character at present.
+/// The state of a performer's stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presence {
-    /// Nobody has performed yet; the character stands.
+    /// No sample has arrived yet; the character stands.
     Waiting,
     /// The character follows.
     Performing,
     /// The stream is silent; the last pose is held.
     Holding,
-    /// The stream has been silent for long; the character stands at ease.
+    /// The stream has been silent for long; the character stands relaxed.
     Relaxed,
 }
 
 /// A live performer as the source of a character's wanted pose.
 ///
-/// Time is the stage's, told with each call; nothing else of the world is looked at, so the same samples at the same times give
-/// the same bits. Memory is bounded, and neither call allocates.
+/// Time is the stage's, passed with each call; nothing else of the world is used, so the same samples at the same times
+/// give the same bits. Memory is bounded, and neither call allocates.
 ///
 /// ```
 /// use glam::DVec3;
@@ -60,7 +60,7 @@ pub struct LiveSource {
     /// Samples that were used with this alignment.
     aligned: u32,
     buffer: Buffer,
-    /// Sender's time that is shown \[s\].
+    /// The playhead: sender's time that is shown \[s\].
     playhead: Option<f64>,
     /// Beyond the last sample.
     is_ahead: bool,
@@ -89,31 +89,32 @@ snapshot!(LiveSource {
     filter, blended, shown, before, step_secs, until_secs, gain,
 } fixed { stand, settings });
 
-/// Silence after which a stream counts as lost \[s\]: what runs on beyond its last sample has come to rest by then.
+/// Timeout after which a stream counts as lost \[s\]: the extrapolation beyond its last sample has come to rest by
+/// then.
 const SILENT_SECS: f64 = 0.25;
 
-/// How much faster or slower than time the playhead runs to get to where it should be \[1\].
+/// Maximum deviation of the playhead's rate while it corrects its position \[1\].
 const MAX_WARP: f64 = 0.1;
 
-/// How fast it gets there \[1/s\].
+/// Rate of the correction \[1/s\].
 const WARP_RATE: f64 = 2.0;
 
-/// Farther from where it should be the playhead jumps \[s\].
+/// Error above which the playhead jumps \[s\].
 const JUMP_SECS: f64 = 0.4;
 
-/// Least time over which a performer comes back \[s\].
+/// Minimum duration of the blend when a performer returns \[s\].
 const RETURN_SECS: f64 = 0.4;
 
-/// Least time over which a gap is bridged \[s\].
+/// Minimum duration of the blend over a gap \[s\].
 const BRIDGE_SECS: f64 = 0.1;
 
-/// How far ahead a pose is foretold \[s\]: a motion frame at 30 Hz.
+/// Maximum extrapolation of a pose \[s\]: a motion frame at 30 Hz.
 const MAX_AHEAD_SECS: f64 = 0.034;
 
-/// Samples after which an alignment is kept for good.
+/// Number of samples after which an alignment is final.
 const SURE: u32 = 10;
 
-/// Passed samples looked at in one step.
+/// Maximum number of passed samples processed in one step.
 const MAX_PASSED: usize = 64;
 
 impl LiveSource {
@@ -146,14 +147,14 @@ impl LiveSource {
         }
     }
 
-    /// Until the performer is heard, something else acts: the performance will begin at this pose.
+    /// The performance will start at this pose; call it while the understudy plays.
     pub fn stand_by(&mut self, pose: &Pose) {
         if self.presence == Presence::Waiting {
             (self.idle, self.blended, self.shown, self.before) = (*pose, *pose, *pose, *pose);
         }
     }
 
-    /// Takes a sample in that arrives at a time of the stage \[s\].
+    /// Receives a sample that arrives at a time of the stage \[s\].
     pub fn receive(&mut self, sample: &PerformerSample, now_secs: f64) {
         if !self.outlier_filter.is_sound(sample) || !sample.time_secs.is_finite() {
             return;
@@ -176,7 +177,7 @@ impl LiveSource {
             self.clock.restart();
             self.playhead = None;
             if self.aligned < SURE {
-                // What it was aligned by was no performer.
+                // The sample of the alignment was an outlier.
                 alignment = Alignment::of(sample, self.build, &self.stand);
                 pose = alignment.pose(sample);
                 self.aligned = 0;
@@ -194,14 +195,14 @@ impl LiveSource {
             for gap in gaps.into_iter().flatten() {
                 self.clock.interval(gap);
             }
-            // Where one was missing between two, what is shown between them is another pose now.
+            // A sample that fills a gap at the playhead changes the interpolated pose.
             let next = self.playhead.and_then(|playhead| self.buffer.next_secs(playhead));
             self.is_mended |= gaps[1].is_some() && next == Some(sample.time_secs);
         }
     }
 
-    /// Goes on by a step that begins at a time of the stage \[s\]; [`LiveSource::pose`] is then what is wanted at its end.
-    /// Returns the new presence when it changes.
+    /// Advances by a step that begins at a time of the stage \[s\]; [`LiveSource::pose`] is then the wanted pose at its
+    /// end. Returns the new presence if it changes.
     pub fn advance(&mut self, now_secs: f64, step_secs: f64) -> Option<Presence> {
         self.step_secs = step_secs;
         self.until_secs = now_secs + step_secs;
@@ -243,7 +244,7 @@ impl LiveSource {
         }
     }
 
-    /// Moves the playhead to what is to be shown at the end of the step.
+    /// Moves the playhead to its time at the end of the step.
     fn play(&mut self, now_secs: f64, step_secs: f64, is_back: bool) {
         let Some(newest) = self.buffer.newest().map(|newest| newest.time_secs) else { return };
         // One step more: samples arrive between steps and are seen at the next.
@@ -259,10 +260,10 @@ impl LiveSource {
         } else if off.abs() > JUMP_SECS {
             self.show_from(due, step_secs, BRIDGE_SECS);
         } else if (self.is_ahead || self.is_mended) && next <= newest {
-            // What was guessed is known now.
+            // The extrapolated part is known now.
             self.show_from(next, step_secs, BRIDGE_SECS);
         } else if next > newest {
-            // There is nothing to show; the playhead may wait where it should be.
+            // Nothing is shown, so the playhead may wait at its position.
             self.is_ahead = true;
             self.playhead = Some(if due < next { due.max(newest).max(playhead.min(next)) } else { next });
         } else {
@@ -279,7 +280,7 @@ impl LiveSource {
         }
     }
 
-    /// Shows the stream from a time on, whatever was shown before, without a pop.
+    /// Shows the stream from a time on, with an inertial blend from the present pose.
     fn show_from(&mut self, time_secs: f64, step_secs: f64, least_secs: f64) {
         if let Some(wanted) = self.buffer.at(time_secs - step_secs) {
             self.blend = Blend::begin(&self.blended, &wanted, least_secs);
@@ -289,7 +290,7 @@ impl LiveSource {
         self.is_ahead = self.buffer.newest().is_none_or(|newest| newest.time_secs < time_secs);
     }
 
-    /// Standing upright where the pose that is shown stands, facing where it faces.
+    /// Standing upright at the position and heading of the shown pose.
     fn at_ease(&self) -> Pose {
         let forward = self.blended.world[0] * DVec3::Z;
         let turn = exp(DVec3::Y * libm::atan2(forward.x, forward.z));
@@ -301,13 +302,13 @@ impl LiveSource {
         }
     }
 
-    /// What is wanted at the end of the step.
+    /// The wanted pose at the end of the step.
     pub fn pose(&self) -> &Pose {
         &self.shown
     }
 
-    /// What will be wanted at a time of the stage soon after the end of the step \[s\], as far as can be told now: for trackers that
-    /// are told where a motion frame ends.
+    /// The predicted wanted pose at a time of the stage soon after the end of the step \[s\], for trackers that need
+    /// the end of a motion frame.
     pub fn pose_at(&self, time_secs: f64) -> Pose {
         let ahead = (time_secs - self.until_secs).clamp(0.0, MAX_AHEAD_SECS);
         let Some(playhead) = self.playhead.filter(|_| self.presence == Presence::Performing && ahead > 0.0) else {
@@ -323,32 +324,32 @@ impl LiveSource {
         Pose::from_locals(self.shown.hips_position + then.hips_position - now.hips_position, &locals)
     }
 
-    /// Whether and how the performer is there.
+    /// The state of the performer's stream.
     pub fn presence(&self) -> Presence {
         self.presence
     }
 
-    /// What came of the samples so far.
+    /// Statistics of the samples so far.
     pub fn counters(&self) -> PerformCounters {
         self.outlier_filter.counters()
     }
 
-    /// How far behind the shortest way from the sender the pose is shown \[s\]: what evens out jitter and loss.
+    /// Delay of the jitter buffer beyond the minimum latency \[s\].
     pub fn delay_secs(&self) -> f64 {
         self.clock.delay_secs()
     }
 
-    /// How far the playhead lags behind a sample that would arrive now by the shortest way \[s\]; `None` before the first.
+    /// Lag of the playhead behind a sample that would arrive now with minimum latency \[s\]; `None` before the first.
     pub fn lag_secs(&self, now_secs: f64) -> Option<f64> {
         Some(now_secs - self.clock.offset_secs() - self.playhead?)
     }
 
-    /// Samples that are kept.
+    /// Number of buffered samples.
     pub fn waiting(&self) -> usize {
         self.buffer.len()
     }
 
-    /// Factor on how firmly the body holds to the pose: 1, less when relaxed.
+    /// Factor on the gains: 1, less when relaxed.
     pub fn gain(&self) -> f64 {
         self.gain
     }

@@ -1,4 +1,4 @@
-//! Between VRM parts, which are straight in a T-pose, and our nodes, which are straight with the arms hanging.
+//! Conversion between VRM parts, whose zero pose is the T-pose, and our nodes, whose zero pose has hanging arms.
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose};
@@ -24,7 +24,7 @@ impl TPose {
     }
 }
 
-/// The part whose turn a node has: the chest ends the spine.
+/// The part whose rotation a node has: the chest ends the spine.
 const fn carrier(node: Node) -> Part {
     match node {
         Node::Chest => Part::UpperChest,

@@ -1,11 +1,11 @@
-//! What can be wrong with key poses.
+//! Errors of key poses.
 
 use super::PartName;
 
-/// Why poses do not come to anything on a body.
+/// Why key poses cannot be resolved on a body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PoseError {
-    /// A base that is not there.
+    /// A base pose that does not exist.
     #[error("pose {pose:?} starts from {base:?}, which does not exist; there are: {known}")]
     UnknownBase {
         /// The pose.
@@ -15,7 +15,7 @@ pub enum PoseError {
         /// What there is.
         known: String,
     },
-    /// Poses that start from each other.
+    /// A cycle of base poses.
     #[error("pose {pose:?} starts from itself: {way}; let one of them start from \"stand\"")]
     Cycle {
         /// One of them.
@@ -23,7 +23,7 @@ pub enum PoseError {
         /// From base to base.
         way: String,
     },
-    /// A number out of its range.
+    /// A number out of range.
     #[error("pose {pose:?}, {place}: {problem}")]
     Number {
         /// The pose.
@@ -49,7 +49,7 @@ pub enum PoseError {
         /// By how much \[degrees\].
         excess_deg: f64,
     },
-    /// A part that is no limb's.
+    /// A part that does not belong to a limb.
     #[error("pose {pose:?}: {link} ends no limb; ik takes leftHand, rightHand, leftFoot or rightFoot")]
     NoLimb {
         /// The pose.
@@ -67,14 +67,14 @@ pub enum PoseError {
         /// The distance \[m\].
         miss_m: f64,
     },
-    /// Too much of something.
+    /// A count above its maximum.
     #[error("{what}: {count} are too many; up to {most} are taken")]
     TooMany {
         /// Of what.
         what: String,
-        /// How many there are.
+        /// The count.
         count: usize,
-        /// How many may be.
+        /// The maximum.
         most: usize,
     },
     /// A name of the built-in pose.
@@ -85,7 +85,7 @@ pub enum PoseError {
 /// Why a pose file cannot be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PoseFileError {
-    /// The text is not what a pose file holds.
+    /// The text is not a valid pose file.
     #[error("{file}, line {line}: {problem}")]
     Line {
         /// The file's name as it was given.
@@ -95,14 +95,14 @@ pub enum PoseFileError {
         /// What is wrong and what to do.
         problem: String,
     },
-    /// Too long to be one.
+    /// The text is too long.
     #[error("{file} has {bytes} bytes; a pose file has at most {most}")]
     TooLong {
         /// The file's name as it was given.
         file: String,
         /// Its length.
         bytes: usize,
-        /// The longest that is read.
+        /// The maximum.
         most: usize,
     },
 }

@@ -5,10 +5,10 @@ use crate::graph::GraphSpec;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The longest text that is read \[bytes\].
+/// Maximum length of a pose file's text \[bytes\].
 pub const MAX_FILE_BYTES: usize = 1 << 20;
 
-/// What a pose file holds.
+/// The contents of a pose file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PoseFile {
@@ -20,10 +20,10 @@ pub struct PoseFile {
     pub graphs: BTreeMap<String, GraphSpec>,
 }
 
-/// Reads a pose file's text; `file_name` is for messages.
+/// Parses a pose file's text; `file_name` is for messages. No file is read.
 ///
 /// # Errors
-/// With the line, what is wrong there, and what is right.
+/// With the line, the problem and the remedy.
 pub fn read_poses(text: &str, file_name: &str) -> Result<PoseFile, PoseFileError> {
     let file = file_name.to_owned();
     if text.len() > MAX_FILE_BYTES {

@@ -7,7 +7,7 @@ use sinew_body::humanoid::{Node, exp, log};
 use sinew_snapshot::snapshot;
 use std::collections::BTreeMap;
 
-/// A wanted turn of every joint but the root's, with gains.
+/// A target rotation of every joint except the root, with gains.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyPose {
     /// `parent_from_node` by [`Node::index`]; the hips' is unused and the identity.
@@ -16,7 +16,7 @@ pub struct KeyPose {
     pub gains: [f64; Node::COUNT],
     /// Factor on each joint's damping, likewise.
     pub dampings: [f64; Node::COUNT],
-    /// Time in which the wanted pose moves here from the one before \[s\].
+    /// Duration of the blend from the previous pose \[s\].
     pub blend_secs: f64,
     /// Damp against the velocity of the blend instead of against rest.
     pub follow_velocity: bool,
@@ -24,7 +24,7 @@ pub struct KeyPose {
 
 snapshot!(KeyPose { rotations, gains, dampings, blend_secs, follow_velocity });
 
-/// [`KeyPose::blend_secs`] of a pose that states none \[s\].
+/// Default of [`KeyPose::blend_secs`] \[s\].
 pub const BLEND_SECS: f64 = 0.25;
 
 impl KeyPose {
@@ -49,7 +49,7 @@ impl KeyPose {
         pose
     }
 
-    /// The pose as a file states it, on `stand`: what an IK handle has found can be saved.
+    /// The pose as a file states it, on `stand`: the solution of an IK handle can be saved.
     pub fn to_spec(&self) -> PoseSpec {
         let (gain, damping) = (common(&self.gains), common(&self.dampings));
         let mut joints = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Key poses: what files state, what they come to on a body, and the wanted pose that moves from one to the next.
+//! Key poses: their file format, their resolution on a body, and the player that blends from one to the next.
 
 mod error;
 mod file;
@@ -17,10 +17,10 @@ pub use player::PosePlayer;
 pub use resolve::{MAX_POSES, STAND, resolve_poses};
 pub use spec::{FullJointSpec, IkSpec, JointSpec, PoseSpec};
 
-/// Names for a message: not more than a reader takes in.
+/// A list of names for a message, shortened.
 pub(crate) fn list(names: &[&str]) -> String {
-    const MOST: usize = 40;
-    let shown: Vec<String> = names.iter().take(MOST).map(|name| name.chars().take(60).collect()).collect();
-    let more = if names.len() > MOST { ", ..." } else { "" };
+    const MAX_NAMES: usize = 40;
+    let shown: Vec<String> = names.iter().take(MAX_NAMES).map(|name| name.chars().take(60).collect()).collect();
+    let more = if names.len() > MAX_NAMES { ", ..." } else { "" };
     format!("{}{more}", shown.join(", "))
 }

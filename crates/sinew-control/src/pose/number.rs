@@ -1,4 +1,4 @@
-//! Numbers of pose and graph files: refused where they stand, so that the error names the line.
+//! Range checks of numbers in pose and graph files, at deserialisation, so that the error names the line.
 
 use serde::de::{Deserialize, Deserializer, Error};
 use std::ops::RangeInclusive;
@@ -22,7 +22,7 @@ fn read<'de, D: Deserializer<'de>>(from: D, range: &RangeInclusive<f64>, what: &
     checked(f64::deserialize(from)?, range, what).map_err(D::Error::custom)
 }
 
-/// The number, or a sentence that says what is wrong with it.
+/// The number, or an error text.
 pub(crate) fn checked(value: f64, range: &RangeInclusive<f64>, what: &str) -> Result<f64, String> {
     // NaN is in no range.
     if range.contains(&value) {

@@ -12,7 +12,7 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PartName(pub Node);
 
-/// A name that is none of the 18 parts.
+/// A name that is not one of the 18 parts.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no body part is called {0:?}; the parts are {known}", known = PartName::list())]
 pub struct UnknownPartName(pub String);
@@ -29,7 +29,7 @@ impl FromStr for PartName {
 
     fn from_str(text: &str) -> Result<PartName, UnknownPartName> {
         let found = Node::ALL.into_iter().find(|node| node.part().name() == text);
-        // Files are from outside: an endless name would make an endless message.
+        // Files are untrusted: a very long name would make a very long message.
         found.map(PartName).ok_or_else(|| UnknownPartName(text.chars().take(60).collect()))
     }
 }

@@ -1,4 +1,4 @@
-//! The wanted pose as it moves from key pose to key pose.
+//! The key pose player: blends the wanted pose from key pose to key pose.
 
 use super::KeyPose;
 use crate::Wanted;
@@ -8,10 +8,10 @@ use sinew_body::humanoid::{Body, Node, log};
 use sinew_snapshot::snapshot;
 use sinew_world::{CharacterFrame, CharacterId, Frame};
 
-/// Plays key poses: aims at one at a time, and blends to it from whatever was wanted before.
+/// Plays key poses: blends to the present one from the previous wanted pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PosePlayer {
-    /// Limbs that reach; they are solved over the pose.
+    /// IK handles; they are solved on the pose.
     pub ik: IkHandles,
     aim: KeyPose,
     /// What was wanted when the blend began.
@@ -48,8 +48,8 @@ impl PosePlayer {
         }
     }
 
-    /// Takes the body's present pose for what was wanted so far, so that the next pose is blended to from there: for a character
-    /// that somebody else has driven until now.
+    /// Sets the body's present pose as the wanted one, so that the next blend starts there: for a character that was
+    /// driven by another source.
     pub fn take_over(&mut self, character: &CharacterFrame) {
         let pose = character.pose();
         for node in Node::ALL.into_iter().skip(1) {
@@ -59,18 +59,18 @@ impl PosePlayer {
         self.restart();
     }
 
-    /// Aims at a pose from now on.
+    /// Sets the target pose and starts a blend to it.
     pub fn aim(&mut self, pose: &KeyPose) {
         self.aim.clone_from(pose);
         self.restart();
     }
 
-    /// The pose that is aimed at.
+    /// The target pose.
     pub fn aimed_at(&self) -> &KeyPose {
         &self.aim
     }
 
-    /// How far the blend has come, 0 to 1.
+    /// Progress of the blend, 0 to 1.
     pub fn progress(&self) -> f64 {
         if self.elapsed_secs >= self.aim.blend_secs { 1.0 } else { self.elapsed_secs / self.aim.blend_secs }
     }

@@ -1,4 +1,4 @@
-//! From what files state to key poses on a body.
+//! Resolves key poses of files on a body.
 
 use super::key_pose::{mirrored, rotation_of};
 use super::{BLEND_SECS, FullJointSpec, IkSpec, JointSpec, KeyPose, PartName, PoseError, PoseSpec, number};
@@ -6,30 +6,30 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Limb, LimbGoal, Node, Pose, solve_limb};
 use std::collections::BTreeMap;
 
-/// Most poses of a scene.
+/// Maximum number of poses of a scene.
 pub const MAX_POSES: usize = 2000;
 
-/// Bases on bases.
+/// Maximum depth of base poses.
 const MAX_DEPTH: usize = 64;
 
 /// The built-in pose that others start from.
 pub const STAND: &str = "stand";
 
-/// Slack on a limit \[rad\]: angles that were written down in degrees.
+/// Tolerance at a limit \[rad\]: angles rounded to degrees in files.
 const LIMIT_SLACK: f64 = 1e-6;
 
-/// How far from its target an IK link of a pose may stay \[m\].
+/// Maximum distance of an IK link of a pose from its target \[m\].
 const REACH_SLACK_M: f64 = 1e-3;
 
 /// The poses of a scene on a body, by name; `stand` is always among them.
 ///
 /// # Errors
-/// The first thing that is wrong with one of them, see [`PoseError`].
+/// The first error, see [`PoseError`].
 pub fn resolve_poses(specs: &BTreeMap<String, PoseSpec>, body: &Body) -> Result<BTreeMap<String, KeyPose>, PoseError> {
     if specs.len() > MAX_POSES {
         return Err(PoseError::TooMany { what: "poses".to_owned(), count: specs.len(), most: MAX_POSES });
     }
-    // A file may write `stand` down, as long as it says nothing new.
+    // A file may define `stand`, as long as it is the built-in pose.
     if specs.get(STAND).is_some_and(|spec| *spec != PoseSpec::default()) {
         return Err(PoseError::Stand);
     }
@@ -40,7 +40,7 @@ pub fn resolve_poses(specs: &BTreeMap<String, PoseSpec>, body: &Body) -> Result<
     Ok(drafts.into_iter().map(|(name, draft)| (name.to_owned(), draft.finish())).collect())
 }
 
-/// A pose whose gains are still apart, as poses on top of it need them.
+/// A pose with separate gains, as derived poses need them.
 #[derive(Clone)]
 struct Draft {
     rotations: [DQuat; Node::COUNT],
@@ -169,7 +169,7 @@ impl Draft {
     }
 }
 
-/// Makes the draft of a pose and of all that it stands on.
+/// Makes the draft of a pose and of all its bases.
 fn draft<'a>(
     name: &'a str,
     specs: &'a BTreeMap<String, PoseSpec>,

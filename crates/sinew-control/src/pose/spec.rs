@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// A key pose: what differs from the pose that it starts from.
+/// A key pose: its differences from a base pose.
 ///
 /// ```
 /// use sinew_control::PoseSpec;
@@ -21,10 +21,10 @@ pub struct PoseSpec {
     /// The pose to start from; `stand` (arms hanging) when left out, which is built in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<String>,
-    /// Take the base with left and right exchanged.
+    /// Mirror the base: left and right exchanged.
     #[serde(default, skip_serializing_if = "is_false")]
     pub mirror: bool,
-    /// Time in which the wanted pose moves here from the one before \[s\]; the base's, or 0.25.
+    /// Duration of the blend from the previous pose \[s\]; default: the base's, or 0.25.
     #[serde(default, deserialize_with = "number::some_secs", skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 3600))]
     pub blend_secs: Option<f64>,
@@ -39,10 +39,10 @@ pub struct PoseSpec {
     /// Damp against the velocity at which the wanted pose blends, instead of against rest; the base's, or false.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub follow_velocity: Option<bool>,
-    /// Joints by the part that they turn against its parent; those left out are as in the base.
+    /// Joints by the part that they rotate relative to its parent; default: the base's.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub joints: BTreeMap<PartName, JointSpec>,
-    /// Limbs whose angles follow from where their ends are; they are solved after `joints`.
+    /// Limbs whose angles are solved by IK, after `joints`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ik: Vec<IkSpec>,
 }
@@ -54,7 +54,7 @@ pub enum JointSpec {
     /// Degrees about the part's X (to the left), Y (up along the bone) and Z (forward) axes. The rotation is X·Y·Z: Z is
     /// applied first.
     Turn([f64; 3]),
-    /// With gains of its own.
+    /// Angles and gains.
     Full(FullJointSpec),
 }
 
@@ -75,14 +75,14 @@ pub struct FullJointSpec {
     pub damping: Option<f64>,
 }
 
-/// A limb that ends where it is told.
+/// An IK target of a limb.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct IkSpec {
     /// The hand or foot whose centre goes to the target.
     pub link: PartName,
-    /// Where to \[m\], for a body of 1.7 m (scaled with the stature): x to the character's left, y up from the floor, z
-    /// forward, from the point on the floor between the feet of the standing body.
+    /// The target \[m\], for a body of 1.7 m (scaled with the stature): x to the character's left, y up from the floor,
+    /// z forward, from the point on the floor between the feet of the standing body.
     #[serde(deserialize_with = "number::place")]
     pub target_m: [f64; 3],
 }

@@ -1,8 +1,8 @@
-//! Controllers written in Rust that sit beside poses and scripts: the layer of reactive control
-//! (Shapiro et al. 2007, section 6).
+//! Feedback controllers in Rust beside poses and scripts: the layer of reactive control (Shapiro et al. 2007, section
+//! 6).
 //!
-//! A reflex sees the finished [`Frame`] of the step before and changes the wanted pose that the layers above it have made. It
-//! keeps what state it needs and is asked at every physics step while it is switched on.
+//! A reflex reads the finished [`Frame`] of the previous step and changes the wanted pose of the layers above it. It
+//! has its own state and is called at every physics step while it is switched on.
 
 mod balance;
 
@@ -14,12 +14,12 @@ use sinew_body::humanoid::Body;
 use sinew_snapshot::Snapshot;
 use sinew_world::{CharacterFrame, CharacterId, Frame};
 
-/// What a reflex knows.
+/// The input of a reflex.
 #[derive(Clone, Copy, Debug)]
 pub struct Sense<'a> {
     /// The world after the last step.
     pub frame: &'a Frame,
-    /// Which of its characters is meant.
+    /// The character.
     pub own: CharacterId,
     /// Its body.
     pub body: &'a Body,
@@ -46,7 +46,7 @@ pub trait Reflex: Snapshot + Send + Sync {
     /// Changes the wanted pose for the next step. Must not panic, and not allocate.
     fn step(&mut self, sense: &Sense, target: &mut Wanted);
 
-    /// Forgets what it remembers: it was switched on, or the character was put back.
+    /// Resets its state: it was switched on, or the character was reset.
     fn reset(&mut self);
 }
 

@@ -24,10 +24,11 @@ pub struct ClipSource {
     resumed_secs: Option<f64>,
 }
 
-/// How long a clip that is resumed takes to come to its own pace \[s\].
+/// Time in which a resumed clip reaches its own pace \[s\].
 const STARTS_SECS: f64 = 0.8;
 
-/// How far from where it was left a clip is resumed, to find feet as they stand \[s\]: half a step of a walk.
+/// Maximum time between leaving and resuming points of a clip, in the search for matching feet \[s\]: half a step of a
+/// walk.
 const NEAR_SECS: f64 = 0.3;
 
 impl ClipSource {
@@ -41,7 +42,7 @@ impl ClipSource {
         self.pose_of(self.start_secs + self.own_secs(time_secs))
     }
 
-    /// The clip's time: one that is resumed sets out from rest.
+    /// The clip's time: a resumed clip starts from rest.
     fn own_secs(&self, time_secs: f64) -> f64 {
         let Some(resumed_secs) = self.resumed_secs else { return time_secs };
         let share = ((time_secs - resumed_secs) / STARTS_SECS).clamp(0.0, 1.0);
@@ -79,8 +80,9 @@ impl Source for ClipSource {
         Some(&self.poses)
     }
 
-    /// Goes on at `now_secs` of the stage from where the clip was at `left_secs`, or near there where its feet are as those of a
-    /// pose; moved and turned about the vertical so that the hips are over the pose's place and face as there. It sets out from rest.
+    /// Resumes at `now_secs` of the stage from the clip's time at `left_secs`, or near it where its feet match those of
+    /// a pose; moved and rotated about the vertical so that the hips have the pose's position and heading. It starts
+    /// from rest.
     fn resume(&mut self, body: &Body, left_secs: f64, now_secs: f64, at: &Pose) {
         let left = self.start_secs + self.own_secs(left_secs);
         let tries = (NEAR_SECS * self.hz).floor() as i64;
@@ -104,7 +106,7 @@ impl Source for ClipSource {
     }
 }
 
-/// Where a pose faces \[rad about +Y from +Z to +X\].
+/// Heading of a pose \[rad about +Y from +Z to +X\].
 fn heading_rad(pose: &Pose) -> f64 {
     let forward = pose.world[0] * DVec3::Z;
     libm::atan2(forward.x, forward.z)

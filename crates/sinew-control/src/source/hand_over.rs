@@ -1,11 +1,11 @@
-//! From one source to the next.
+//! The blend from one source to the next.
 
 use sinew_body::humanoid::{Node, Pose, exp, log};
 
-/// How long handing over takes \[s\].
+/// Duration of the blend \[s\].
 pub const HAND_OVER_SECS: f64 = 0.6;
 
-/// The pose between one source and the next, so long after the next one has begun \[s\]; smooth in velocity and acceleration.
+/// The blended pose, this time after the next source has begun \[s\]; smooth in velocity and acceleration.
 pub fn handed_over(from: &Pose, to: &Pose, since_secs: f64) -> Pose {
     let share = (since_secs / HAND_OVER_SECS).clamp(0.0, 1.0);
     let share = share * share * share * (10.0 + share * (6.0 * share - 15.0));

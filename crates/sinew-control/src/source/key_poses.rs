@@ -20,7 +20,7 @@ pub struct PoseBook {
     pub graphs: BTreeMap<String, Graph>,
 }
 
-/// Aims at one key pose, or plays a pose graph.
+/// A source that blends to one key pose, or plays a pose graph.
 ///
 /// ```
 /// use sinew_body::humanoid::Body;
@@ -37,12 +37,12 @@ pub struct KeyPoses {
     pose: String,
     graph: Option<(String, GraphPlayer)>,
     signals: Vec<String>,
-    /// What is wanted at the end of the step.
+    /// The wanted pose at the end of the step.
     now: Wanted,
     step_secs: f64,
 }
 
-/// Signals that may wait for a step.
+/// Maximum number of signals that wait for a step.
 const MAX_SIGNALS: usize = 100;
 
 impl KeyPoses {
@@ -57,7 +57,7 @@ impl KeyPoses {
         KeyPoses { book, player, pose: pose.to_owned(), graph: None, signals: Vec::new(), now, step_secs }
     }
 
-    /// The name of the pose that is aimed at.
+    /// The name of the target pose.
     pub fn pose(&self) -> &str {
         &self.pose
     }
@@ -68,16 +68,16 @@ impl KeyPoses {
         Some((name, player.state_name(self.book.graphs.get(name)?)))
     }
 
-    /// Whether it aims at this pose and at nothing else: no graph, no limb that reaches.
+    /// Whether this pose is its only target: no graph, no IK.
     pub fn is_at(&self, name: &str) -> bool {
         let reaches = Limb::ALL.into_iter().any(|limb| self.player.ik.of(limb).is_some());
         self.pose == name && self.graph.is_none() && !reaches
     }
 
-    /// Aims at a key pose; stops a graph and limbs that reach.
+    /// Sets a key pose as target; stops a graph and IK.
     ///
     /// # Errors
-    /// When there is no such pose: which there are.
+    /// The pose does not exist; lists the known ones.
     pub fn aim(&mut self, name: &str) -> Result<(), String> {
         let pose = self.book.poses.get(name).ok_or_else(|| unknown("pose", name, self.book.poses.keys()))?;
         self.player.aim(pose);
@@ -90,7 +90,7 @@ impl KeyPoses {
     /// Starts a graph, at its first state or another.
     ///
     /// # Errors
-    /// When there is no such graph or state: which there are.
+    /// The graph or state does not exist; lists the known ones.
     pub fn start_graph(&mut self, name: &str, state: Option<&str>) -> Result<(), String> {
         let graph = self.book.graphs.get(name).ok_or_else(|| unknown("graph", name, self.book.graphs.keys()))?;
         let mut player = GraphPlayer::new(graph, self.step_secs);
@@ -106,16 +106,16 @@ impl KeyPoses {
         Ok(())
     }
 
-    /// The graph stops where it is, and limbs go back to the pose.
+    /// Stops the graph in its state, and returns limbs to the pose.
     pub fn rest(&mut self) {
         self.graph = None;
         self.player.ik.release_all();
     }
 
-    /// Makes a limb reach. False when it reaches there already. `effector` is the point that is to arrive, in the frame of the limb's end.
+    /// Sets the IK target of a limb. False if it is unchanged. `effector` is a point in the frame of the hand or foot.
     ///
     /// # Errors
-    /// When the part belongs to no limb.
+    /// The part does not belong to a limb.
     pub fn reach(&mut self, node: Node, target: DVec3, effector: DVec3) -> Result<bool, String> {
         let limb = Limb::of(node).ok_or_else(|| format!("{} is no part of an arm or a leg", node.part()))?;
         let is_new = self.player.ik.of(limb).is_none_or(|before| before.target != target);
@@ -123,7 +123,7 @@ impl KeyPoses {
         Ok(is_new)
     }
 
-    /// Lets the limb of a part go back to the pose, or all limbs.
+    /// Returns the limb of a part, or all limbs, to the pose.
     pub fn stop_reaching(&mut self, node: Option<Node>) {
         match node.and_then(Limb::of) {
             Some(limb) => self.player.ik.release(limb),

@@ -1,4 +1,4 @@
-//! Where the wanted pose comes from: the [`Source`], its kinds, and [`Sources`], which decides whose word counts.
+//! Sources of the wanted pose: the [`Source`], its kinds, and [`Sources`], which decides their precedence.
 
 mod clip;
 mod hand_over;
@@ -21,12 +21,12 @@ use sinew_world::{CharacterFrame, CharacterId, Frame};
 use std::any::Any;
 use std::fmt::Debug;
 
-/// A step of physics that begins, as a source sees it.
+/// The input of a source for a physics step.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<'a> {
     /// The world after the last step.
     pub frame: &'a Frame,
-    /// Which of its characters is meant.
+    /// The character.
     pub own: CharacterId,
     /// Its body.
     pub body: &'a Body,
@@ -36,12 +36,12 @@ pub struct Moment<'a> {
     pub has_poses_layer: bool,
 }
 
-/// Something that a source has to tell.
+/// An event of a source.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SourceEvent {
     /// A pose graph changed its state.
     Graph {
-        /// What made it so.
+        /// Its cause.
         cause: Cause,
         /// The graph.
         graph: String,
@@ -50,7 +50,7 @@ pub enum SourceEvent {
         /// The state that begins.
         to: String,
     },
-    /// A live performer came or went.
+    /// The state of a live performer's stream changed.
     Stream(StreamChange),
     /// The hands of a reach should be there.
     Reach(ReachArrival),
@@ -74,24 +74,24 @@ pub enum SourceEvent {
 /// assert!((wanted.pose.hips_position.z - 0.05).abs() < 1e-12);
 /// ```
 pub trait Source: Any + Debug + Send + Sync {
-    /// Goes on by a step of physics. What is to be told is put behind `events`.
+    /// Advances by a physics step. Events are appended to `events`.
     fn advance(&mut self, moment: &Moment, events: &mut Vec<SourceEvent>) {
         let _ = (moment, events);
     }
 
-    /// A word for pose graphs that wait for it.
+    /// A signal for pose graphs.
     fn signal(&mut self, word: &str) {
         let _ = word;
     }
 
-    /// Whether it says where the hips are.
+    /// Whether it has root motion: it places the hips.
     fn root(&self) -> Root;
 
-    /// Writes what is wanted at a time of the stage at or soon after the end of the step \[s\]: the joints' rotations and velocities,
-    /// the root, and where that is placed the pose. Gains, damping and torques are left alone.
+    /// Writes the wanted pose at a time of the stage at or soon after the end of the step \[s\]: the joints' rotations
+    /// and velocities, the root, and the pose if the root is placed. Gains, damping and torques do not change.
     fn wanted(&self, at_secs: f64, wanted: &mut Wanted);
 
-    /// Writes how firmly each joint is to be held: gains and damping. The joints' own, unless the source says otherwise.
+    /// Writes the gains and damping of each joint. Default: the joints' own.
     fn firmness(&self, wanted: &mut Wanted) {
         for joint in &mut wanted.joints {
             (joint.gain, joint.damping) = (1.0, 1.0);
@@ -103,12 +103,13 @@ pub trait Source: Any + Debug + Send + Sync {
         None
     }
 
-    /// Acts again after another source did: it was left at one time of the stage and goes on at another \[s\], where a pose stands.
+    /// Resumes after another source: it was left at one time of the stage and continues at another \[s\], at the
+    /// position of a pose.
     fn resume(&mut self, body: &Body, left_secs: f64, now_secs: f64, at: &Pose) {
         let _ = (body, left_secs, now_secs, at);
     }
 
-    /// Sets out from where the body is: something else has moved it until now.
+    /// Starts at the body's present pose: something else has moved it until now.
     fn take_over(&mut self, character: &CharacterFrame) {
         let _ = character;
     }

@@ -10,7 +10,7 @@ impl Source for LiveSource {
         Root::Placed
     }
 
-    /// Joints are those of the end of the step; the pose is foretold as far as the stream is known.
+    /// Joints are those at the end of the step; the pose is extrapolated as far as the stream is known.
     fn wanted(&self, at_secs: f64, wanted: &mut Wanted) {
         for node in Node::ALL.into_iter().skip(1) {
             let joint = wanted.joint_mut(node);
@@ -27,13 +27,13 @@ impl Source for LiveSource {
     }
 }
 
-/// Who acts.
+/// Which source plays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Acts {
-    /// The character's own source, until the performer is heard.
+    /// The understudy: the character's own source, until the first sample arrives.
     Understudy,
     Performer,
-    /// Neither: somebody let go of the performer.
+    /// Neither: a command stopped following the performer.
     Others,
 }
 
@@ -45,17 +45,17 @@ pub struct Performer {
     acts: Acts,
 }
 
-/// A performer came or went.
+/// The state of the performer's stream changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StreamChange {
-    /// What the performer is to the character now.
+    /// The present state.
     pub presence: Presence,
-    /// An understudy acted until now.
+    /// It replaces an understudy.
     pub replaces_understudy: bool,
 }
 
 impl Performer {
-    /// Followed at once, or with an understudy (the character's own source) as soon as it is heard.
+    /// Followed at once, or with an understudy (the character's own source) from the first sample on.
     pub fn new(source: LiveSource, has_understudy: bool) -> Performer {
         let acts = if has_understudy { Acts::Understudy } else { Acts::Performer };
         Performer { source, has_understudy, acts }
@@ -76,19 +76,19 @@ impl Performer {
         self.acts == Acts::Performer
     }
 
-    /// Is followed from now on, or not.
+    /// Starts or stops following.
     pub fn follow(&mut self, on: bool) {
         self.acts = if on { Acts::Performer } else { Acts::Others };
     }
 
-    /// Something else is to be done. An understudy takes that as its own part.
+    /// A command for another source. An understudy takes it itself.
     pub fn leave(&mut self) {
         if self.is_followed() {
             self.follow(false);
         }
     }
 
-    /// Whether an understudy acts.
+    /// Whether the understudy plays.
     pub fn has_understudy_on(&self) -> bool {
         self.acts == Acts::Understudy
     }
@@ -98,7 +98,7 @@ impl Performer {
         self.has_understudy && self.is_followed()
     }
 
-    /// Goes on by a step; an understudy's pose is where the performer will begin. Returns what the performer did, when it did something.
+    /// Advances by a step; the performer will start at the understudy's pose. Returns a change of the stream's state.
     pub fn advance(&mut self, now_secs: f64, step_secs: f64, understudy: Option<&Pose>) -> Option<StreamChange> {
         if let Some(pose) = understudy {
             self.source.stand_by(pose);

@@ -7,37 +7,37 @@ use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_reach::{Goal, Obstacle, Reacher, Start, Style, StyleError};
 use sinew_world::{CharacterId, Entity, Frame, Held, PropId};
 
-/// Where a hand is to come.
+/// The target of a hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Aimed {
     /// A point, world \[m\].
     Point(DVec3),
-    /// A prop's centre and how far from it, world \[m\].
+    /// A prop's centre and an offset from it, world \[m\].
     Prop(PropId, DVec3),
-    /// Where the centre of a prop is to come that the hand holds, world \[m\].
+    /// The target of the centre of a prop that the hand holds, world \[m\].
     Held(PropId, DVec3),
 }
 
 /// Left and right.
 pub const HANDS: [Node; 2] = [Node::LeftHand, Node::RightHand];
 
-/// How far along a reach is.
+/// The phase of a reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
-    /// On its way, or there.
+    /// Reaching, or at the target.
     Reaching,
-    /// Standing up again; then back to what was before.
+    /// Standing up again; then back to the previous source.
     Rising,
-    /// Handing over since a time \[s\].
+    /// Blending to the previous source since a time \[s\].
     Leaving(f64),
 }
 
-/// A character that reaches, whatever it did before and does after.
+/// A reach as a source, with the sources before and after it.
 #[derive(Clone, Debug)]
 pub struct ReachSource {
     reacher: Reacher,
     order: ReachOrder,
-    /// When the reacher's time began, and when the last order came \[s\].
+    /// Start of the reacher's time, and time of the last command \[s\].
     began_secs: f64,
     ordered_secs: f64,
     /// Counts the character's orders, from 1.
@@ -50,17 +50,17 @@ pub struct ReachSource {
     has_arrived: bool,
     /// The hands have been on their targets.
     is_there: bool,
-    /// When the source before was left \[s\].
+    /// Time at which the previous source was left \[s\].
     left_secs: f64,
     has_resumed: bool,
 }
 
-/// What a reach does that has consequences outside.
+/// Events of a reach with effects outside it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum ReachStep {
     Nothing,
     Arrives(ReachArrival),
-    /// It stands here, and hands over from now on. The source before goes on from where it was left, when it has a time.
+    /// It stands, and blends to the previous source from now on, which resumes where it was left if it has a time.
     Leaves {
         standing: Pose,
         left_secs: Option<f64>,
@@ -80,16 +80,16 @@ pub struct ReachArrival {
 pub struct HandArrival {
     /// Which.
     pub node: Node,
-    /// How far it is from its target \[m\].
+    /// Distance from its target \[m\].
     pub gap_m: f64,
-    /// What it takes hold of now.
+    /// The object that it grasps now.
     pub holds: Option<Held>,
 }
 
-/// How near the hand must be to where it was sent, to grasp \[m\]: the body may be off its wanted pose.
+/// Maximum distance of the hand from its target for a grasp \[m\]: the body may deviate from its wanted pose.
 const GRASP_M: f64 = 0.04;
 
-/// How near counts as there \[m\].
+/// Maximum distance that counts as arrived \[m\].
 const THERE_M: f64 = 0.02;
 
 impl ReachSource {
@@ -122,7 +122,7 @@ impl ReachSource {
         })
     }
 
-    /// Goes on to something else from where it is now, in another style.
+    /// Continues from the present state with another style.
     ///
     /// # Errors
     /// When the style is out of range.
@@ -151,7 +151,7 @@ impl ReachSource {
         self.reacher.reach(&goal);
     }
 
-    /// Who plans it. Its poses are what is wanted, not where the body is.
+    /// The planner. Its poses are the wanted ones, not the body's.
     pub fn reacher(&self) -> &Reacher {
         &self.reacher
     }
@@ -184,7 +184,7 @@ impl ReachSource {
         Goal { left: at(0), right: at(1) }
     }
 
-    /// Whether it is on its way or there.
+    /// Whether it reaches or is at the target.
     pub fn is_reaching(&self) -> bool {
         self.phase == Phase::Reaching
     }
@@ -212,7 +212,7 @@ impl ReachSource {
         self.reacher.pose_at(self.own_secs(time_secs))
     }
 
-    /// Lets go and stands up; then what was before goes on. False when it does so already.
+    /// Releases the target and stands up; then the previous source continues. False if it does so already.
     pub fn leave(&mut self) -> bool {
         let was_reaching = self.is_reaching();
         if was_reaching {
@@ -228,7 +228,7 @@ impl ReachSource {
         self.leave()
     }
 
-    /// A step: targets followed, grasps taken, the end handed over.
+    /// Advances by a step: follows targets, grasps, and blends at the end.
     pub(super) fn step(&mut self, frame: &Frame) -> ReachStep {
         let now_secs = frame.time_secs;
         let own_secs = self.own_secs(now_secs);
@@ -254,7 +254,7 @@ impl ReachSource {
         }
     }
 
-    /// The hands should be there: says whether they are, and grasps. One that was bumped arrives later.
+    /// The hands should have arrived: checks whether they have, and grasps. A hand that was hit arrives later.
     fn arrive(&mut self, frame: &Frame) -> Option<ReachArrival> {
         let is_late = std::mem::replace(&mut self.has_arrived, true);
         let character = frame.character(self.character)?;
@@ -272,7 +272,7 @@ impl ReachSource {
                     character: self.character,
                     node,
                     object: Entity::Prop(prop),
-                    // Both hands: the second holds softly, or the two would fight.
+                    // Both hands: the second attachment is soft, otherwise the two would oppose each other.
                     soft: side == 1 && self.order.hand == ReachHand::Both,
                     break_force_n: None,
                 }),

@@ -1,4 +1,4 @@
-//! What a character follows, and whose word counts.
+//! The sources of a character, and their precedence.
 
 use super::reach::ReachStep;
 use super::{KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, handed_over};
@@ -14,12 +14,12 @@ use std::sync::Arc;
 pub struct Sources {
     body: Body,
     book: Arc<PoseBook>,
-    /// The pose of the book that key poses begin in.
+    /// The initial key pose.
     first: String,
     own: Box<dyn Source>,
     performer: Option<Performer>,
     reach: Option<ReachSource>,
-    /// Where the hips are when no source places them.
+    /// The root for sources without root motion.
     root: FreeRoot,
     step_secs: f64,
 }
@@ -39,7 +39,7 @@ impl Sources {
         }
     }
 
-    /// Follows another source of its own from now on: a performer is left, a reach ends.
+    /// Sets its own source: stops following a performer, ends a reach.
     pub fn follow(&mut self, own: Box<dyn Source>) {
         self.own = own;
         self.leave_others();
@@ -55,12 +55,12 @@ impl Sources {
         self.performer = Some(performer);
     }
 
-    /// Reaches from now on, out of what it does.
+    /// Starts a reach from the present source.
     pub fn set_reach(&mut self, reach: ReachSource) {
         self.reach = Some(reach);
     }
 
-    /// Its own source, whether it acts or not.
+    /// Its own source, whether it plays or not.
     pub fn own(&self) -> &dyn Source {
         self.own.as_ref()
     }
@@ -85,7 +85,7 @@ impl Sources {
         self.performer.as_mut()
     }
 
-    /// The reach, until it has handed over.
+    /// The reach, until its blend is complete.
     pub fn reach(&self) -> Option<&ReachSource> {
         self.reach.as_ref()
     }
@@ -95,12 +95,12 @@ impl Sources {
         self.reach.as_mut()
     }
 
-    /// The reach that another one can go on from, taken out. One that hands over already is over then.
+    /// Takes out the reach, so that another can continue from it. One that blends already has ended.
     pub fn take_reach(&mut self) -> Option<ReachSource> {
         self.reach.take().filter(|reach| reach.leaving_secs().is_none())
     }
 
-    /// Aims at a key pose, whatever was followed. False when it aims there already.
+    /// Sets a key pose as target, instead of any other source. False if unchanged.
     ///
     /// # Errors
     /// When there is no such pose: which there are.
@@ -113,7 +113,7 @@ impl Sources {
         Ok(true)
     }
 
-    /// Starts a pose graph, whatever was followed.
+    /// Starts a pose graph, instead of any other source.
     ///
     /// # Errors
     /// When there is no such graph or state: which there are.
@@ -121,7 +121,7 @@ impl Sources {
         self.follow_key_poses(|poses| poses.start_graph(name, state))
     }
 
-    /// Follows its performer, or its own source instead. A motion is over then: what is left for later are key poses.
+    /// Follows its performer, or its own source instead. A clip ends then, and key poses remain.
     ///
     /// # Errors
     /// When it has no performer.
@@ -164,7 +164,7 @@ impl Sources {
         self.performer.as_ref().is_some_and(Performer::is_followed)
     }
 
-    /// The source whose word counts, a reach apart: the performer, else its own.
+    /// The source with precedence, apart from a reach: the performer, else its own.
     fn acting(&self) -> &dyn Source {
         match &self.performer {
             Some(performer) if performer.is_followed() => performer.source(),
@@ -172,8 +172,8 @@ impl Sources {
         }
     }
 
-    /// What is wanted at a time of the stage \[s\]: of the reach where there is one, which hands over to what acts beside it. This is the
-    /// one place that decides whose word counts.
+    /// The wanted pose at a time of the stage \[s\]: that of the reach if there is one, which blends to the source
+    /// beside it. This is the one place that decides precedence.
     pub fn wanted(&self, at_secs: f64, wanted: &mut Wanted) {
         let Some(reach) = &self.reach else { return self.acting().wanted(at_secs, wanted) };
         let Some(since_secs) = reach.leaving_secs() else { return reach.wanted(at_secs, wanted) };
@@ -186,7 +186,7 @@ impl Sources {
         wanted.follow_poses(&now, &next, self.step_secs);
     }
 
-    /// How firmly joints are to be held; a reach holds them with their own gains.
+    /// The gains of the joints; a reach uses their own gains.
     pub fn firmness(&self, wanted: &mut Wanted) {
         match &self.reach {
             Some(reach) => reach.firmness(wanted),
@@ -194,7 +194,7 @@ impl Sources {
         }
     }
 
-    /// Whether what is wanted says where the hips are.
+    /// Whether the wanted pose has root motion.
     pub fn root(&self) -> Root {
         if self.reach.is_some() { Root::Placed } else { self.acting().root() }
     }
@@ -207,7 +207,7 @@ impl Sources {
         wanted.pose
     }
 
-    /// The pose of its own source at a time of the stage \[s\], whether it acts or not.
+    /// The pose of its own source at a time of the stage \[s\], whether it plays or not.
     pub fn own_pose_at(&self, at_secs: f64) -> Pose {
         let mut wanted = Wanted::STANDING;
         self.own.wanted(at_secs, &mut wanted);
@@ -221,12 +221,13 @@ impl Sources {
         }
     }
 
-    /// Places a wanted pose whose source knows no place, once a motion frame.
+    /// Places a wanted pose without root motion, once a motion frame.
     pub fn place_root(&mut self, character: &CharacterFrame, wanted: &mut Wanted) {
         self.root.place(&self.body, character, wanted);
     }
 
-    /// A tracker begins with the body: a source that knows no place has it stand where it is. `sole_m` as in [`FreeRoot::at`].
+    /// A tracker takes over the body: without root motion the root starts at the body's position. `sole_m` as in
+    /// [`FreeRoot::at`].
     pub fn begin_root(&mut self, character: &CharacterFrame, sole_m: Option<f64>) {
         self.root = FreeRoot::at(&character.pose(), sole_m);
         if sole_m.is_some() {
@@ -234,25 +235,25 @@ impl Sources {
         }
     }
 
-    /// The body is held to its place again: a source that knows no place has it stand where it is.
+    /// Pins are on again: without root motion the root starts at the body's position.
     pub fn stand_where_it_is(&mut self, character: &CharacterFrame) {
         if self.root() == Root::Free {
             self.root.stand_where_it_is(character);
         }
     }
 
-    /// A word for pose graphs that wait for it.
+    /// A signal for pose graphs.
     pub fn signal(&mut self, word: &str) {
         self.own.signal(word);
     }
 
-    /// Sets out from where the body is: something else has moved it until now.
+    /// Starts at the body's present pose: something else has moved it until now.
     pub fn take_over(&mut self, character: &CharacterFrame) {
         self.own.take_over(character);
     }
 
-    /// Goes on by a step, everything: what does not act now may act again. What is to be told is put behind `events`.
-    /// `own` is the character's place in the frame; without the layer of key poses, graphs stay in their states.
+    /// Advances all sources by a step, also those that do not play. Events are appended to `events`. `own` is the
+    /// character's index in the frame; without the layer of key poses, graphs stay in their states.
     pub fn advance(&mut self, frame: &Frame, own: CharacterId, has_poses_layer: bool, events: &mut Vec<SourceEvent>) {
         let now_secs = frame.time_secs;
         let understudy = self.performer.as_ref().filter(|performer| performer.has_understudy_on());
@@ -281,5 +282,5 @@ impl Sources {
     }
 }
 
-/// Why there is nobody to follow.
+/// The error without a performer.
 pub const NO_PERFORMER: &str = "it has no performer; write source = { live = {} } in its table";

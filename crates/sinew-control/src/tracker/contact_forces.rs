@@ -1,4 +1,4 @@
-//! What a character feels: the forces of contacts on its parts, as their mean over a motion frame.
+//! Contact forces on a character's parts, as their mean over a motion frame.
 
 use glam::DVec3;
 use sinew_body::humanoid::Node;
@@ -26,8 +26,8 @@ sinew_snapshot::snapshot!(ContactForces { parts });
 sinew_snapshot::snapshot!(Touch { impulse, size, moment });
 
 impl ContactForces {
-    /// Adds what the world's last step did to a character. Floor, ground prop, own parts and what the character holds do
-    /// not count: the wanted motion stands on the ones and carries the others already.
+    /// Adds the contacts of the world's last step. Floor, ground prop, own parts and held objects do not count: the
+    /// wanted motion already stands on or carries them.
     pub(crate) fn add(&mut self, world: &World, character: CharacterId, ground: Option<PropId>) {
         let frame = world.frame();
         let counts = |other: Entity| match other {
@@ -61,7 +61,7 @@ impl ContactForces {
         }
     }
 
-    /// The mean forces over the motion frame that ends; the next one begins with none.
+    /// The mean forces over the motion frame that ends; resets for the next one.
     pub(crate) fn take(&mut self, frame_secs: f64, forces: &mut Vec<PointForce>) {
         forces.clear();
         for (node, touch) in Node::ALL.into_iter().zip(&self.parts) {

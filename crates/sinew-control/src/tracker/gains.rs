@@ -1,21 +1,21 @@
-//! Springs of joints, given as frequencies, so that the same numbers suit any body.
+//! Joint gains, given as frequencies, so that the same numbers suit any body.
 
 use serde::{Deserialize, Serialize};
 use sinew_body::humanoid::{Body, Node, Pose};
 use std::f64::consts::TAU;
 
-/// How a joint's spring is chosen.
+/// The gains of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointGain {
-    /// Frequency at which what hangs from the joint would swing on the spring alone \[Hz\]; default 3.
+    /// Natural frequency of the parts below the joint on the spring alone \[Hz\]; default 3.
     #[serde(default = "frequency")]
     pub frequency_hz: f64,
-    /// Damping ratio of that swing \[1\]; default 1.
+    /// Damping ratio \[1\]; default 1.
     #[serde(default = "ratio")]
     pub damping_ratio: f64,
-    /// The joint also carries what stands on it: the load's m g h is added to the stiffness, times this factor \[1\].
-    /// Default 2 for ankles, knees, hips and chest, else 0.
+    /// Load factor \[1\]: m g h of the parts above the joint is added to the stiffness, times this factor. Default 2
+    /// for ankles, knees, hips and chest, else 0.
     #[serde(default)]
     pub load: Option<f64>,
 }
@@ -49,9 +49,9 @@ pub struct Gains {
 }
 
 impl Gains {
-    /// k = (2π f)² I + load · m g h and d = 2 ζ k / (2π f), with I the inertia of what hangs from the joint, m and h the mass
-    /// above the joint and its height over it, standing. An ankle's own foot has 0.0075 kg m²: without the load
-    /// every standing pose would collapse.
+    /// k = (2π f)² I + load · m g h and d = 2 ζ k / (2π f), with I the outboard inertia of the joint, m and h the mass
+    /// above the joint and its height over it, standing. An ankle's own foot has 0.0075 kg m²: without the load every
+    /// standing pose would collapse.
     pub fn of(body: &Body, outboard: &[f64; Node::COUNT], joints: &[JointGain; Node::COUNT]) -> Gains {
         let mut gains = Gains { stiffness: [0.0; Node::COUNT], damping: [0.0; Node::COUNT] };
         for node in Node::ALL.into_iter().skip(1) {
@@ -69,7 +69,7 @@ impl Gains {
 /// Default share of the load: a leg's three joints buckle together when each holds just m g h, and two legs share it.
 const LOAD: f64 = 2.0;
 
-/// Joints that a standing body rests on.
+/// Joints that carry a standing body.
 fn carries(node: Node) -> bool {
     matches!(
         node,
@@ -83,7 +83,7 @@ fn carries(node: Node) -> bool {
     )
 }
 
-/// m g h of what stands above a joint \[N m\].
+/// m g h of the parts above a joint \[N m\].
 fn load_moment(body: &Body, node: Node) -> f64 {
     let positions = Pose::STANDING.positions(body);
     let joint = positions[node.index()].y;

@@ -5,17 +5,17 @@ use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_world::{CharacterId, Drive, Pin, World};
 
-/// How firmly the parts of a body are held to their places.
+/// Stiffness of the pins of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grip {
-    /// Frequency of the spring that holds each part, critically damped \[Hz\]. A part that is pushed off comes back within
-    /// about half of its period.
+    /// Frequency of the spring that holds each part, critically damped \[Hz\]. A displaced part returns within about
+    /// half of its period.
     pub frequency_hz: f64,
-    /// Largest acceleration that it gives a part on top of carrying its weight \[m/s²\].
+    /// Maximum acceleration of a part in addition to its weight \[m/s²\].
     pub max_acceleration: f64,
 }
 
-/// How the ground under a pose moves.
+/// Motion of the ground under a pose.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct GroundMotion {
     /// \[m\]
@@ -50,7 +50,7 @@ impl Hold {
         self.before = self.now;
     }
 
-    /// Holds more or less firmly from now on.
+    /// Sets the stiffness. Takes effect in the next step.
     pub(crate) fn set_grip(&mut self, grip: Grip) {
         self.grip = grip;
     }
@@ -62,7 +62,7 @@ impl Hold {
         let next = Instant::of(body, next);
         let omega = std::f64::consts::TAU * self.grip.frequency_hz;
         let (stiffness, damping) = (omega * omega, 2.0 * omega);
-        // A pin knows of no acceleration: velocity that is asked for too much makes up for it.
+        // These pins have no feed-forward acceleration: an increased target velocity compensates for it.
         let lead_secs = (1.0 + step_secs * damping + step_secs * step_secs * stiffness)
             / (damping + step_secs * stiffness).max(1e-9);
         let max_forces = Node::ALL.map(|node| body.link(node).mass_kg * (self.grip.max_acceleration + GRAVITY));
@@ -109,9 +109,10 @@ impl Hold {
     }
 }
 
-/// What a pin carries of a part's weight comes out of its largest force \[m/s²\].
+/// The carried weight counts towards a pin's maximum force \[m/s²\].
 const GRAVITY: f64 = 9.81;
 
-/// Joints are nearly limp, with the friction that they have anyway: relative to what hangs from them \[1/s²\], \[1/s\].
+/// Joints are nearly limp, with the friction that they have anyway: relative to their outboard inertia \[1/s²\],
+/// \[1/s\].
 const JOINT_STIFFNESS: f64 = 1.0;
 const JOINT_DAMPING: f64 = 2.0;

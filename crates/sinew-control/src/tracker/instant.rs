@@ -1,4 +1,4 @@
-//! Where the parts of a body are in a pose.
+//! Positions of a body's parts in a pose.
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, log};
@@ -20,7 +20,7 @@ impl Instant {
         Instant { joints, centres: Node::ALL.map(centre), rotations: pose.world }
     }
 
-    /// The turn of a part from this instant to another, world \[rad\].
+    /// The rotation of a part from this instant to another, world \[rad\].
     pub(crate) fn turn(&self, to: &Instant, at: usize) -> DVec3 {
         log(to.rotations[at] * self.rotations[at].conjugate())
     }

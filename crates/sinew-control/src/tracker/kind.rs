@@ -7,20 +7,20 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum TrackerKind {
-    /// It has the wanted pose, and nothing moves it.
+    /// Kinematic: the body has the wanted pose, and nothing moves it.
     Kinematic,
     /// Springs in the joints.
     #[default]
     Pd,
-    /// Springs in the joints, and forces that hold every part to its place.
+    /// Joint springs, and pins that hold every part to its position in the world.
     Kd,
-    /// It follows and yields in the directions that its own motion leaves free.
+    /// The response: follows, and yields in the near-unactuated coordinates of its own motion.
     Response,
-    /// Limp.
+    /// No tracker: the body is limp.
     None,
 }
 
-/// What a tracker does with what it could be told beside the wanted pose. What it does not honour is refused when it is asked for.
+/// The inputs that a tracker honours beside the wanted pose. Inputs that it does not honour are refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Honours {
     /// Factors on the joints' stiffness: the command `gain`, a scene's `pose_gain`, the layer `poses` off.

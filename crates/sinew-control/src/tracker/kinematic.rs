@@ -1,4 +1,4 @@
-//! Shows the wanted pose, whatever is in the way.
+//! The kinematic tracker shows the wanted pose, whatever is in the way.
 
 use super::clock::Clock;
 use super::pose_interpolator::PoseInterpolator;
@@ -7,11 +7,11 @@ use crate::Wanted;
 use sinew_body::humanoid::{Node, Pose};
 use sinew_world::{CharacterId, World};
 
-/// Moves every part to the wanted pose; what it meets is pushed with infinite mass.
+/// Moves every part to the wanted pose; bodies in the way are pushed with infinite mass.
 ///
 /// Each step of physics: [`physics_step`](KinematicTracker::physics_step), then [`World::step`]. Where
-/// [`wants_pose`](KinematicTracker::wants_pose) says so, that is at the start of each motion frame, hand it the pose of the
-/// frame's end first.
+/// [`wants_pose`](KinematicTracker::wants_pose) says so, that is at the start of each motion frame, pass the pose of
+/// the frame's end first.
 #[derive(Clone, Debug)]
 pub struct KinematicTracker {
     clock: Clock,
@@ -36,14 +36,14 @@ impl KinematicTracker {
         self.clock.is_due()
     }
 
-    /// The pose for the end of the motion frame that begins. One that is not finite is passed over.
+    /// Sets the pose for the end of the motion frame that begins. One that is not finite is ignored.
     pub fn wanted(&mut self, pose: &Pose) {
         if pose.is_finite() {
             self.wanted = *pose;
         }
     }
 
-    /// Says where every part is to be at the end of the world's next step.
+    /// Sets the pose of every part at the end of the world's next step.
     pub fn physics_step(&mut self, world: &mut World, character: CharacterId) {
         if self.clock.is_due() {
             self.clock.begin_frame();

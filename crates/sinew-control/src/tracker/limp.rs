@@ -1,4 +1,4 @@
-//! Follows nothing: joints are limp, and the body falls.
+//! The tracker `none`: joints are limp, and the body falls.
 
 use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
 use crate::Wanted;

@@ -1,4 +1,4 @@
-//! How a body follows what is wanted: the [`Tracker`], and its five kinds.
+//! Trackers make a body follow the wanted pose: the [`Tracker`], and its five kinds.
 
 mod clock;
 mod contact_forces;
@@ -29,12 +29,12 @@ use sinew_world::{CharacterId, World};
 use std::any::Any;
 use std::fmt::Debug;
 
-/// What a tracker wants to know for the world's next step. Each says more than the one before.
+/// The input that a tracker needs for the world's next step. Each variant includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Wants {
-    /// Nothing: it goes on by what it was told.
+    /// Nothing: it continues with its last input.
     Nothing,
-    /// How firmly: gains, damping and torques of the joints.
+    /// Gains, damping and torques of the joints.
     Firmness,
     /// The joints too, at the end of the step.
     Joints,
@@ -42,7 +42,7 @@ pub enum Wants {
     Pose,
 }
 
-/// How a tracker begins.
+/// The state with which a tracker starts.
 #[derive(Clone, Copy)]
 pub struct TakeOver<'a> {
     /// The wanted pose at any time of the stage \[s\], where the source is a motion that is known beforehand, such as a clip.
@@ -76,16 +76,16 @@ pub struct TakeOver<'a> {
 /// # Ok::<(), sinew_world::SpecError>(())
 /// ```
 pub trait Tracker: Any + Debug + Send + Sync {
-    /// Which of the trackers it is.
+    /// Its kind.
     fn kind(&self) -> TrackerKind;
 
-    /// What it does with gains, torques and springs.
+    /// Which of gains, torques and joint springs it honours.
     fn honours(&self) -> Honours;
 
-    /// What it wants to know for the next step.
+    /// The input that it needs for the next step.
     fn wants(&self) -> Wants;
 
-    /// Whether hips that the source does not place go where the standing foot has them go, on the floor, instead of staying.
+    /// Foot locking: whether a root without root motion follows the stance foot on the floor, instead of staying.
     fn locks_feet(&self) -> bool {
         false
     }
@@ -93,7 +93,7 @@ pub trait Tracker: Any + Debug + Send + Sync {
     /// The body is its own from now on, after another tracker's [`release`](Tracker::release).
     fn take_over(&mut self, start: &TakeOver, world: &mut World, character: CharacterId);
 
-    /// Sets forces, springs or places for the world's next step.
+    /// Sets forces, springs or positions for the world's next step.
     fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId);
 
     /// Hands the body back to physics.

@@ -73,9 +73,9 @@ impl Tracker for PdTracker {
         }
     }
 
-    /// The springs stay as they are until another tracker changes them.
+    /// The springs stay until another tracker changes them.
     fn release(&mut self, _: &mut World, _: CharacterId) {}
 }
 
-/// Share of a joint's damping that is left when its gain is nothing: flesh \[1\].
+/// Remaining share of a joint's damping at gain 0, as of flesh \[1\].
 const MIN_DAMPING: f64 = 0.05;

@@ -1,12 +1,12 @@
-//! From poses at the motion's rate to poses at the physics' rate, without looking ahead.
+//! Interpolates poses at the motion's rate to poses at the physics rate, without looking ahead.
 
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp, log};
 
-/// The way from one motion frame to the next: a cubic that leaves with the velocity at which the frame before ended.
+/// The interpolation between two motion frames: a cubic that starts with the final velocity of the previous frame.
 ///
-/// A cubic needs the velocity at its end too, before the frame after it is known: it is found from the last three poses
-/// (the second-order backward difference), so that velocities have no steps and nothing is late.
+/// A cubic needs the velocity at its end too, before the frame after it is known: it is estimated from the last three
+/// poses (the second-order backward difference), so that velocities are continuous and nothing lags.
 #[derive(Clone, Debug)]
 pub(crate) struct PoseInterpolator {
     from: Pose,
@@ -38,7 +38,7 @@ impl PoseInterpolator {
         PoseInterpolator { from: *pose, to: *pose, hips: Cubic::default(), turns: [Cubic::default(); Node::COUNT] }
     }
 
-    /// Goes on to the pose of the next motion frame.
+    /// Advances to the pose of the next motion frame.
     pub(crate) fn next(&mut self, to: &Pose) {
         let shift = to.hips_position - self.to.hips_position;
         let before = self.from.hips_position - self.to.hips_position;
@@ -54,7 +54,7 @@ impl PoseInterpolator {
         (self.from, self.to) = (self.to, *to);
     }
 
-    /// The pose at a fraction of the way, 0 to 1.
+    /// The pose at a fraction of the motion frame, 0 to 1.
     pub(crate) fn at(&self, fraction: f64) -> Pose {
         let fraction = fraction.clamp(0.0, 1.0);
         Pose {
@@ -63,7 +63,7 @@ impl PoseInterpolator {
         }
     }
 
-    /// The pose at the end of the way.
+    /// The pose at the end of the motion frame.
     pub(crate) fn end(&self) -> &Pose {
         &self.to
     }

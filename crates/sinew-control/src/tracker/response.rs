@@ -1,9 +1,9 @@
-//! The response as a citizen of the world: it feels what it touches, and pushes with its own mass.
+//! The response tracker: the response gets the forces of contacts in the world, and its body pushes with its own mass.
 //!
-//! All parts stay dynamic bodies. Implicit springs of limited force hold them to the pose that the response
-//! gives out, so that at the instant of a contact a part is as heavy as it is and no heavier. What contacts did to the parts
-//! over a motion frame is handed to the response as forces; its answer is where the parts are held next. So the part that was hit
-//! first gives way by its own inertia and then yields in the style of the response.
+//! All parts stay dynamic bodies. Implicit springs of limited force hold them to the pose that the response returns, so
+//! that at the instant of a contact a part has its own mass and not more. The contact forces on the parts over a motion
+//! frame are passed to the response; its next pose is the target of the springs. So a part that is hit first moves by
+//! its own inertia and then yields in the style of the response.
 
 use super::clock::Clock;
 use super::contact_forces::ContactForces;
@@ -20,8 +20,8 @@ use sinew_world::{CharacterId, PropId, World};
 /// Follows wanted poses with the response of [`sinew_response`], in a world.
 ///
 /// Each step of physics: [`physics_step`](ResponseTracker::physics_step), then [`World::step`]. Where
-/// [`wants_pose`](ResponseTracker::wants_pose) says so, that is at the start of each motion frame, hand it the pose of the
-/// frame's end first. Contacts of a motion frame show in the pose of the next one.
+/// [`wants_pose`](ResponseTracker::wants_pose) says so, that is at the start of each motion frame, pass the pose of the
+/// frame's end first. Contacts of a motion frame take effect in the pose of the next one.
 ///
 /// Wanted poses are taken as on ground at rest. On a moving platform say so with
 /// [`stand_on`](ResponseTracker::stand_on): body and wanted poses are carried along, and the upper body lags.
@@ -38,7 +38,7 @@ pub struct ResponseTracker {
     platform: Option<Platform>,
 }
 
-// The forces are found anew in every frame.
+// The forces are computed anew in every frame.
 sinew_snapshot::snapshot!(ResponseTracker { response, clock, interpolator, hold, wanted, felt, tasks, platform } fixed { forces });
 sinew_snapshot::snapshot!(Platform { prop, origin, step_velocity, frame_velocity });
 
@@ -46,7 +46,7 @@ sinew_snapshot::snapshot!(Platform { prop, origin, step_velocity, frame_velocity
 #[derive(Clone, Copy, Debug, Default)]
 struct Platform {
     prop: PropId,
-    /// Where it was when the character stepped on it \[m\].
+    /// Its position when the character stepped on it \[m\].
     origin: DVec3,
     /// Its velocity one step of physics ago, and one motion frame ago \[m/s\].
     step_velocity: DVec3,
@@ -54,7 +54,7 @@ struct Platform {
 }
 
 impl Grip {
-    /// Firm enough that the eye sees no difference between the body and its pose, soft enough that a hit shows.
+    /// Stiff enough that body and pose look the same, soft enough that an impact is visible.
     pub const RESPONSE: Grip = Grip { frequency_hz: 6.0, max_acceleration: 150.0 };
 }
 
@@ -75,8 +75,8 @@ impl ResponseTracker {
         }
     }
 
-    /// Forgets what was and goes on from a motion that went from `before` to `now`, one motion frame apart: after a cut, or when
-    /// the body was moved by something else. Tasks and platform stay.
+    /// Resets and continues from a motion that went from `before` to `now`, one motion frame apart: after a cut, or
+    /// when the body was moved by something else. Tasks and platform stay.
     pub fn restart(&mut self, before: &Pose, now: &Pose) {
         self.response.restart(before, now);
         self.interpolator = PoseInterpolator::rest(before);
@@ -92,14 +92,14 @@ impl ResponseTracker {
         self.clock.is_due()
     }
 
-    /// The pose for the end of the motion frame that begins. One that is not finite is passed over.
+    /// Sets the pose for the end of the motion frame that begins. One that is not finite is ignored.
     pub fn wanted(&mut self, pose: &Pose) {
         if pose.is_finite() {
             self.wanted = *pose;
         }
     }
 
-    /// Stands on a prop that moves, from now on, or on ground at rest again.
+    /// Sets the moving prop on which it stands, or ground at rest.
     pub fn stand_on(&mut self, world: &World, prop: Option<PropId>) {
         self.platform = prop.and_then(|prop| {
             let state = world.frame().prop(prop)?;
@@ -108,8 +108,8 @@ impl ResponseTracker {
         });
     }
 
-    /// Keeps what is upright in a part now upright, such as a cup in a hand: as well as the joints allow while the motion goes
-    /// on. `None` lets it go with the motion again.
+    /// Keeps the present vertical axis of a part vertical, such as a cup in a hand, as well as the joints allow. `None`
+    /// switches it off.
     pub fn keep_upright(&mut self, node: Option<Node>) {
         self.tasks.keep_upright(node, self.interpolator.end());
     }
@@ -119,13 +119,13 @@ impl ResponseTracker {
         self.tasks.upright()
     }
 
-    /// Keeps trunk, head and arms clear of these props, by their numbers, as far as the motion allows; where it does not,
-    /// they touch. Legs and hips go where the motion takes them.
+    /// Sets props as obstacles of trunk, head and arms. They are avoided as far as the motion allows; legs and hips
+    /// follow the motion.
     pub fn avoid(&mut self, props: &[PropId]) {
         self.tasks.avoid(props);
     }
 
-    /// Reads the contacts of the world's last step, and says where every part is to be held in its next one.
+    /// Reads the contacts of the world's last step, and sets the targets of all parts for its next one.
     pub fn physics_step(&mut self, world: &mut World, character: CharacterId) {
         self.felt.add(world, character, self.platform.map(|platform| platform.prop));
         let step_secs = world.settings().step_secs();
@@ -148,7 +148,7 @@ impl ResponseTracker {
         }
         let tasks = self.tasks.of(self.interpolator.end(), self.response.body(), ground.shift, world);
         let mut pose = self.response.step_with_tasks(&self.wanted, &self.forces, acceleration, tasks);
-        // The world knows better where its platform is.
+        // The world has the actual position of its platform.
         pose.hips_position -= self.response.deviation().ground_shift;
         self.interpolator.next(&pose);
     }
@@ -161,7 +161,7 @@ impl ResponseTracker {
         GroundMotion { shift: state.position - platform.origin, velocity: state.velocity, acceleration }
     }
 
-    /// The forces that the response was given last: the mean over the motion frame before.
+    /// The last forces on the response: the mean over the previous motion frame.
     pub fn forces(&self) -> &[PointForce] {
         &self.forces
     }
@@ -171,12 +171,12 @@ impl ResponseTracker {
         self.interpolator.end()
     }
 
-    /// The response, to see what it does.
+    /// The response, read only.
     pub fn response(&self) -> &Response {
         &self.response
     }
 
-    /// Holds the parts more or less firmly than [`Grip::RESPONSE`].
+    /// Sets another stiffness than [`Grip::RESPONSE`].
     pub fn set_grip(&mut self, grip: Grip) {
         self.hold.set_grip(grip);
     }
@@ -198,7 +198,7 @@ impl Tracker for ResponseTracker {
         if self.wants_pose() { Wants::Pose } else { Wants::Nothing }
     }
 
-    /// Goes on in the middle of a motion that is known beforehand. What is kept upright is so from there.
+    /// Continues in the middle of a motion that is known beforehand.
     fn take_over(&mut self, start: &TakeOver, world: &mut World, _: CharacterId) {
         let Some(motion) = start.motion else { return };
         let now_secs = world.frame().time_secs;

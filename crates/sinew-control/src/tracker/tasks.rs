@@ -1,4 +1,4 @@
-//! What a responding character does besides: keep a cup upright, keep clear of obstacles.
+//! Tasks of the response: keep a cup upright, avoid obstacles.
 
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, UPPER_NODES};
@@ -17,19 +17,19 @@ pub(crate) struct Tasks {
 /// Time in which a cup comes upright again \[s\].
 const UPRIGHT_SECS: f64 = 0.03;
 
-/// A part keeps this far from obstacles, if it can \[m\].
+/// Clearance from obstacles \[m\].
 const CLEARANCE_M: f64 = 0.08;
 
-/// Depth within the clearance at which the push off is full \[m\].
+/// Depth within the clearance at which avoidance has full weight \[m\].
 const FULL_DEPTH_M: f64 = 0.04;
 
-/// Time in which a part that is too near goes clear \[s\].
+/// Time in which a part regains its clearance \[s\].
 const CLEAR_SECS: f64 = 0.05;
 
-/// Of a cup against following the motion \[1/rad\].
+/// Weight of a cup relative to following the motion \[1/rad\].
 const UPRIGHT_WEIGHT: f64 = 2000.0;
 
-/// Of clearance against following the motion \[1/m\].
+/// Weight of clearance relative to following the motion \[1/m\].
 const CLEAR_WEIGHT: f64 = 6000.0;
 
 /// Points of a part's capsule that keep clear.
@@ -43,7 +43,7 @@ impl Tasks {
         Tasks { upright: None, obstacles: Vec::new(), list: Vec::with_capacity(UPPER_NODES) }
     }
 
-    /// From now on what is vertical in a part in this pose stays so.
+    /// Keeps the axis of a part that is vertical in this pose vertical.
     pub(crate) fn keep_upright(&mut self, node: Option<Node>, pose: &Pose) {
         self.upright = node.map(|node| (node, pose.world[node.index()].conjugate() * DVec3::Y));
     }
@@ -88,7 +88,8 @@ impl Tasks {
                     Some((radius + CLEARANCE_M - nearest.distance_m, radius, point, nearest))
                 })
                 .max_by(|a, b| a.0.total_cmp(&b.0));
-            // What comes nearer in this very step is met in time: the plane is there before it is reached.
+            // An obstacle that approaches within this step is avoided in time: the plane is active before it is
+            // reached.
             if let Some((depth, radius, point, nearest)) = deepest
                 && depth > -CLEARANCE_M
             {

@@ -1,9 +1,9 @@
-//! Why something happened.
+//! Causes of events.
 
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// Why something happened.
+/// The cause of an event.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cause {
@@ -23,7 +23,7 @@ pub enum Cause {
         /// The two that touched.
         touched: [String; 2],
     },
-    /// A command of a Python controller, or what became of it.
+    /// A command of a Python controller, or its outcome.
     Script {
         /// The controller's name in the scene.
         controller: String,
@@ -33,9 +33,9 @@ pub enum Cause {
         /// The controller's name in the scene.
         controller: String,
     },
-    /// What lasted for a time ends.
+    /// A timed effect ends.
     TimeOver,
-    /// The scene begins with it.
+    /// The start of the scene.
     SceneStart,
     /// The time of a reach is up.
     ReachArrives,
@@ -59,16 +59,16 @@ pub enum Cause {
     },
     /// A body's state was no longer finite.
     BodyDiverged,
-    /// A joint of props bore more than its breaking force.
+    /// The force of a joint of props exceeded its breaking force.
     JointOverload {
         /// Its name in the scene.
         joint: String,
     },
-    /// A hand's hold bore more than its breaking force.
+    /// The force of an attachment exceeded its breaking force.
     HoldOverload {
-        /// What it bore \[N\].
+        /// The force \[N\].
         force_n: f64,
-        /// What it holds \[N\].
+        /// Its breaking force \[N\].
         max_n: f64,
     },
     /// In a stage that was restored from another one's snapshot: the words of a cause from before.

@@ -14,12 +14,12 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CharacterEffect {
-    /// It aims at a key pose.
+    /// Its target is a key pose.
     Pose {
         /// The pose.
         pose: String,
     },
-    /// It begins a pose graph.
+    /// It starts a pose graph.
     Graph {
         /// The graph.
         graph: String,
@@ -45,41 +45,41 @@ pub enum CharacterEffect {
         /// The point, world \[m\].
         target: DVec3,
     },
-    /// It reaches with the whole body.
+    /// It starts a reach with the whole body.
     Reaches {
-        /// For what.
+        /// The target.
         target: ReachTarget,
-        /// How long it takes \[s\].
+        /// Duration \[s\].
         in_secs: f64,
-        /// Steps on the way.
+        /// Steps that are taken.
         steps: usize,
-        /// Why it does not get there; `None` when it does.
+        /// Why it does not arrive; `None` if it does.
         fails: Option<Reason>,
     },
-    /// It reaches no longer.
+    /// The reach ends.
     ReachEnds,
-    /// A reach's time is up, and a hand is so far from its target.
+    /// The time of a reach is over, with this distance of a hand from its target.
     HandArrives {
         /// The hand.
         node: Node,
         /// The distance \[m\].
         gap_m: f64,
     },
-    /// A part holds something.
+    /// Something is attached to a part.
     Holds {
         /// The part.
         node: Node,
         /// What it holds: a prop, or `character.part`.
         object: String,
     },
-    /// A part lets go.
+    /// Something is detached from a part.
     LetsGo {
         /// The part.
         node: Node,
         /// What it held.
         objects: Vec<String>,
     },
-    /// A hold broke.
+    /// An attachment broke.
     LosesHold {
         /// The part.
         node: Node,
@@ -109,7 +109,7 @@ pub enum CharacterEffect {
         /// On or off.
         on: bool,
     },
-    /// It is held to a vertical plane.
+    /// It is constrained to a vertical plane.
     HeldToPlane,
     /// It is free in three dimensions.
     FreeFromPlane,
@@ -167,23 +167,23 @@ pub enum CharacterEffect {
         /// The controller.
         controller: Option<String>,
     },
-    /// Parts are held more or less firmly (tracker `kd`).
+    /// Weights of parts changed (tracker `kd`).
     Weights {
         /// The parts.
         nodes: Vec<Node>,
-        /// Weight of the pins; `None` for as it was.
+        /// Weight of the pins; `None` if unchanged.
         pin: Option<f64>,
-        /// Weight of the joints; `None` for as it was.
+        /// Weight of the joints; `None` if unchanged.
         joint: Option<f64>,
     },
-    /// A part is held as before (tracker `kd`).
+    /// The weights of a part are restored (tracker `kd`).
     WeightsRestored {
         /// The part.
         node: Node,
     },
     /// The tracker `kd` has other gains.
     KdGains(KdGains),
-    /// The tracker `kd` has its gains of before.
+    /// The gains of the tracker `kd` are restored.
     KdGainsRestored,
     /// Kinematic forces are switched (tracker `kd`).
     Pins {
@@ -204,7 +204,7 @@ pub enum CharacterEffect {
         /// An understudy acted until now.
         replaces_understudy: bool,
     },
-    /// Its state was not finite, and it is put back to where it last was sound.
+    /// Its state was not finite, and it is reset to its last valid state.
     PutBack,
     /// A line for the report.
     Says {
@@ -213,7 +213,7 @@ pub enum CharacterEffect {
     },
 }
 
-/// What a reach is for.
+/// The target of a reach.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ReachTarget {
     /// A prop.
@@ -329,7 +329,7 @@ impl CharacterEffect {
         }
     }
 
-    /// Shortens texts that somebody else wrote.
+    /// Truncates untrusted texts.
     pub(super) fn shorten(&mut self) {
         if let CharacterEffect::Says { text } | CharacterEffect::Signal { signal: text } = self {
             cut(text);

@@ -1,4 +1,4 @@
-//! What happened.
+//! The effect of an event.
 
 use super::{CharacterEffect, cut};
 use serde::{Serialize, Serializer};
@@ -19,7 +19,7 @@ pub enum Effect {
     },
     /// A command was refused; nothing else happened.
     Refused(OrderError),
-    /// A prop has another place or velocity.
+    /// A prop has a new position or velocity.
     PropPlaced {
         /// The prop.
         prop: String,
@@ -73,7 +73,7 @@ pub enum Effect {
         /// The joint.
         joint: String,
     },
-    /// A controller goes on with a new text.
+    /// A controller continues with a new text.
     Reloaded {
         /// The controller.
         controller: String,
@@ -85,7 +85,7 @@ pub enum Effect {
         /// Why.
         reason: String,
     },
-    /// The controller that is the cause did not come back and was stopped.
+    /// The controller that is the cause did not return and was stopped.
     ScriptKilled {
         /// Why.
         reason: String,
@@ -136,7 +136,7 @@ impl Effect {
         matches!(self, Effect::Refused(_))
     }
 
-    /// Shortens texts that somebody else wrote.
+    /// Truncates untrusted texts.
     pub(super) fn shorten(&mut self) {
         match self {
             Effect::Character { effect, .. } => effect.shorten(),

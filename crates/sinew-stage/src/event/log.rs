@@ -4,7 +4,7 @@ use super::{Cause, Effect};
 use serde::Serialize;
 use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer};
 
-/// Something that happened on the stage, with its cause. In a report both are texts, as `Display` writes them.
+/// An event of the stage, with its cause. In a report both are texts, as `Display` writes them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Event {
     /// When \[s\].
@@ -30,7 +30,7 @@ pub struct Events {
 const MAX_EVENTS: usize = 10_000;
 
 impl Events {
-    /// Notes an event. Of a text that somebody else wrote the first 400 bytes are kept.
+    /// Adds an event. Untrusted texts are truncated to 400 bytes.
     pub fn note(&mut self, mut event: Event) {
         if self.list.len() >= MAX_EVENTS {
             self.dropped += 1;
@@ -47,12 +47,12 @@ impl Events {
         self.list.push(event);
     }
 
-    /// Those that were kept.
+    /// The kept events.
     pub fn list(&self) -> &[Event] {
         &self.list
     }
 
-    /// How many more there were.
+    /// Number of events that were not kept.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }

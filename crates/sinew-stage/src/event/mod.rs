@@ -1,4 +1,4 @@
-//! What happened on the stage: a cause and an effect, for programs to match on and, by `Display`, for people to read.
+//! Events of the stage: a cause and an effect, for programs to match on and, by `Display`, for people to read.
 //!
 //! ```
 //! use sinew_control::{Action, Command};
@@ -23,10 +23,10 @@ pub use character_effect::{CharacterEffect, ReachTarget, ShapeChoice};
 pub use effect::Effect;
 pub use log::{Event, Events};
 
-/// The longest text of others that an event keeps \[bytes\].
+/// Maximum length of an untrusted text in an event \[bytes\].
 const MAX_TEXT: usize = 400;
 
-/// Shortens a text that somebody else wrote, so that ten thousand events stay small.
+/// Truncates an untrusted text, so that ten thousand events stay small.
 fn cut(text: &mut String) {
     if text.len() > MAX_TEXT {
         let end = (0..=MAX_TEXT).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0);

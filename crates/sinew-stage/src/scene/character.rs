@@ -11,25 +11,25 @@ use sinew_control::tracker::TrackerKind;
 use sinew_motion::Part;
 use std::collections::BTreeMap;
 
-/// A character: body, place, what it wants and how it follows.
+/// A character: body, initial position, source and tracker.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CharacterSpec {
     /// Mass \[kg\], 1 to 1000.
     pub mass_kg: f64,
-    /// Standing height \[m\], 0.2 to 10; when left out the clip's skeleton's own, or 1.7 without a clip.
+    /// Standing height \[m\], 0.2 to 10. Default: that of the clip's skeleton, or 1.7 without a clip.
     pub height_m: Option<f64>,
-    /// A motion file whose skeleton the body is made from; 18 bodies of usual proportions when left out.
+    /// A motion file from whose skeleton the body is made. Default: average proportions.
     pub clip: Option<String>,
-    /// Where it stands: the point of the floor below the hips; y lifts it \[m\].
+    /// Initial position: the point of the floor below the hips; y lifts it \[m\].
     pub position_m: [f64; 3],
-    /// Where it faces \[degrees about +Y from +Z to +X\].
+    /// Initial heading \[degrees about +Y from +Z to +X\].
     pub facing_deg: f64,
     /// Velocity of the whole body at the start, in the world's axes \[m/s\].
     pub velocity_m_s: [f64; 3],
-    /// Turning of the whole body about its centre of mass at the start, in the world's axes \[rad/s\].
+    /// Angular velocity of the whole body about its centre of mass at the start, in the world's axes \[rad/s\].
     pub spin_rad_s: [f64; 3],
-    /// The key pose that it has at the start; standing when left out.
+    /// The key pose at the start. Default: standing.
     pub pose: Option<String>,
     /// How the body follows the wanted pose.
     pub tracker: TrackerKind,
@@ -37,13 +37,13 @@ pub struct CharacterSpec {
     pub kd: KdSpec,
     /// Settings of the tracker `response`.
     pub response: ResponseSpec,
-    /// Where the wanted pose comes from; the start's pose when left out.
+    /// The source of the wanted pose. Default: the pose at the start.
     pub source: Option<SourceSpec>,
     /// A Python controller to start with.
     pub controller: Option<String>,
-    /// Reflexes that are ready from the start.
+    /// Reflexes that are enabled from the start.
     pub reflexes: Vec<String>,
-    /// Layers that are on at the start; all when left out.
+    /// Layers that are on at the start. Default: all.
     pub layers: Vec<Layer>,
     /// Factor on the stiffness of all joints (EQ3's global gain), 0 to 1000.
     pub pose_gain: f64,
@@ -51,7 +51,7 @@ pub struct CharacterSpec {
     pub joints: BTreeMap<String, JointSpec>,
     /// More names for parts, such as `RightArm = "rightHand"`.
     pub aliases: BTreeMap<String, String>,
-    /// Held to a vertical plane from the start: `true` for that of its facing.
+    /// Constrained to a vertical plane from the start: `true` for that of its facing.
     pub plane: PlaneSpec,
     /// Factor on gravity.
     pub gravity_scale: f64,
@@ -61,19 +61,19 @@ pub struct CharacterSpec {
     pub colour: Option<String>,
 }
 
-/// Stiffness of one joint. What is left out stays as usual.
+/// Gains of one joint. Default of each key: the standard gains.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct JointSpec {
-    /// How fast the joint swings back \[Hz\], up to 100; 0 leaves it limp.
+    /// Natural frequency \[Hz\], up to 100; 0 makes the joint limp.
     pub frequency_hz: Option<f64>,
-    /// Damping ratio: 1 comes back without overshooting.
+    /// Damping ratio: 1 is critical, without overshoot.
     pub damping_ratio: Option<f64>,
-    /// It carries the body (an ankle): the load counts in its stiffness.
+    /// The joint carries the body (an ankle): the load is added to its stiffness.
     pub carries: Option<bool>,
 }
 
-/// The plane that a character is held to.
+/// The plane to which a character is constrained.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "expected `true`, `false`, or `{ facing_deg = 90 }`")]
 pub enum PlaneSpec {
@@ -134,7 +134,7 @@ impl CharacterSpec {
         self.part(name).map(Node::of)
     }
 
-    /// Facing of the plane that it is held to at the start \[degrees about +Y from +Z to +X\].
+    /// Heading of the plane to which it is constrained at the start \[degrees about +Y from +Z to +X\].
     pub fn plane_facing_deg(&self) -> Option<f64> {
         match self.plane {
             PlaneSpec::Held(false) => None,
@@ -148,7 +148,7 @@ impl CharacterSpec {
         self.colour.as_deref().and_then(rgb)
     }
 
-    /// No part has this name: what to write.
+    /// The error for an unknown part.
     pub(super) fn no_part(&self, wanted: &str) -> String {
         let parts = Node::ALL.into_iter().map(|node| node.part().name());
         let names = self.aliases.keys().map(String::as_str).chain(parts);

@@ -1,4 +1,4 @@
-//! Whether what a scene names exists, and whether its numbers are sound.
+//! Validation of a scene: names exist, numbers are in range.
 
 use super::error::{Fault, known, shortened};
 use super::range::{count, name, new_name, number, optional};
@@ -9,7 +9,7 @@ use sinew_control::GraphSpec;
 /// The built-in pose: standing, arms hanging.
 pub const STAND: &str = "stand";
 
-/// Most key poses and states of graphs, over all characters.
+/// Maximum number of key poses and graph states, over all characters.
 const MAX_RESOLVED: usize = 100_000;
 
 impl SceneSpec {
@@ -208,7 +208,7 @@ impl SceneSpec {
         Ok(())
     }
 
-    /// What a name means that stands for something that can be touched: a prop, a character, a part as `character.part`, or
+    /// Resolves the name of something that can have contacts: a prop, a character, a part as `character.part`, or
     /// `ground`.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! The text of a scene and its pose files as one table, with the way back from a key to its file and line.
+//! The text of a scene and its pose files as one table, with file and line of every key.
 
 use super::error::{Fault, SceneError, known, shortened};
 use super::files::{FileKind, Files, HeldFile, of_kind};
@@ -6,26 +6,26 @@ use super::lines::{line_at, line_of, lines_of};
 use std::collections::BTreeMap;
 use toml::{Table, Value};
 
-/// Largest scene or pose file \[bytes\].
+/// Maximum size of a scene or pose file \[bytes\].
 pub(super) const MAX_TEXT_BYTES: u64 = 4 << 20;
 
-/// Largest scene together with its pose files \[bytes\].
+/// Maximum size of a scene together with its pose files \[bytes\].
 const MAX_TEXTS_BYTES: u64 = 8 << 20;
 
-/// Signs that can begin a table (`{`, `=`, `.`) in a scene together with its pose files: a table takes 2 kB of memory, and
-/// a text of 4 MiB can hold two million. Decimal points count too.
+/// Maximum number of characters that can begin a table (`{`, `=`, `.`) in a scene together with its pose files: a table
+/// takes 2 kB of memory, and a text of 4 MiB can hold two million. Decimal points count too.
 const MAX_TABLE_SIGNS: usize = 200_000;
 
-/// Commas in a scene together with its pose files, each a value of 200 bytes.
+/// Maximum number of commas in a scene together with its pose files, each a value of 200 bytes.
 const MAX_COMMAS: usize = 500_000;
 
-/// All files of a scene together \[bytes\].
+/// Maximum total size of all files of a scene \[bytes\].
 const MAX_FILES_BYTES: u64 = 512 << 20;
 
-/// Deepest path that can be set.
-const DEEPEST: usize = 32;
+/// Maximum depth of a path that can be set.
+const MAX_PATH_DEPTH: usize = 32;
 
-/// Tables whose entries have names that the scene chooses: a misspelt one would be a new entry, not an unknown key.
+/// Tables whose entries are named by the scene: a misspelt name would be a new entry, not an unknown key.
 const NAMED: [&str; 8] = ["characters", "props", "ropes", "joints", "shapes", "poses", "graphs", "controllers"];
 
 /// A scene's table and the texts that it came from.
@@ -39,7 +39,7 @@ pub(super) struct Document {
     name: String,
     /// Which pose file an entry of `poses` or `graphs` came from.
     origins: BTreeMap<(&'static str, String), String>,
-    /// What was changed from outside.
+    /// Values changed from outside.
     sets: Vec<(String, String)>,
     /// Of all texts so far, see [`MAX_TABLE_SIGNS`].
     table_signs: usize,
@@ -90,7 +90,7 @@ impl Document {
         self.files.values().map(|file| file.bytes.len() as u64).sum()
     }
 
-    /// Counts what a text will take as a table; whether all texts so far are small enough.
+    /// Estimates the memory of a text as a table; returns whether all texts so far are small enough.
     fn weigh(&mut self, path: &str) -> bool {
         let text = self.text(path);
         let count = |signs: &[u8]| text.bytes().filter(|byte| signs.contains(byte)).count();
@@ -125,7 +125,7 @@ impl Document {
     /// Adds the poses and graphs of the pose files.
     fn merge(&mut self, files: &dyn Files) -> Result<(), SceneError> {
         let listed = self.table.get("stage").and_then(|stage| stage.get("pose_files")).and_then(Value::as_array);
-        // Anything but a list of texts is told when the stage is read.
+        // Anything but a list of texts is reported when the stage is read.
         let listed: Vec<String> = listed.into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect();
         for path in listed.iter().take(100) {
             // Only texts are held yet.
@@ -182,17 +182,17 @@ impl Document {
         Ok(())
     }
 
-    /// Changes a value by its path. Only entries and tables that exist are entered, so that a misspelt name is told.
+    /// Changes a value by its path. Only existing entries and tables are entered, so that a misspelt name is an error.
     fn set(&mut self, path: &str, value: &str) -> Result<(), Fault> {
         let keys: Vec<&str> = path.split('.').collect();
         let fault = |depth: usize, problem: String| Fault::at(&keys[..depth.min(keys.len())], problem);
-        if keys.len() > DEEPEST || keys.iter().any(|key| key.is_empty()) {
+        if keys.len() > MAX_PATH_DEPTH || keys.iter().any(|key| key.is_empty()) {
             return Err(Fault::at(&[shortened(path)], "write a path such as characters.left.pose_gain"));
         }
         if value.len() as u64 > MAX_TEXT_BYTES {
             return Err(fault(keys.len(), "the value is too long".to_owned()));
         }
-        // A word that is no TOML is a text without its quotes.
+        // A value that is not TOML is a text without its quotes.
         let value = value.trim().parse::<Value>().unwrap_or_else(|_| Value::String(value.to_owned()));
         let (last, way) = keys.split_last().unwrap_or((&"", &[]));
         let mut table = &mut self.table;
@@ -257,14 +257,14 @@ impl Document {
         self.table.iter().try_for_each(|(key, value)| walk(value).map_err(|fault| fault.below(&[key])))
     }
 
-    /// The file that a key stands in.
+    /// The file of a key.
     fn origin(&self, path: &[String]) -> &str {
         let section = path.first().and_then(|first| ["poses", "graphs"].into_iter().find(|section| section == first));
         let named = section.zip(path.get(1)).and_then(|(section, name)| self.origins.get(&(section, name.clone())));
         named.unwrap_or(&self.name)
     }
 
-    /// The line of a key, in whatever file it stands.
+    /// The line of a key, in its file.
     pub fn line(&self, path: &[String]) -> Option<usize> {
         line_of(self.text(self.origin(path)), &path.iter().map(String::as_str).collect::<Vec<_>>())
     }

@@ -1,6 +1,6 @@
-//! What is wrong with a scene, where, and what to do.
+//! Errors of a scene: place, problem and remedy.
 
-/// A scene that cannot be used.
+/// An invalid scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
     /// The file, as it was named.
@@ -42,7 +42,7 @@ impl Fault {
         Fault { path: path.iter().map(S::to_string).collect(), problem: problem.into() }
     }
 
-    /// The same one level further out.
+    /// The same fault, one level further out.
     #[must_use]
     pub(crate) fn below<S: ToString>(mut self, outer: &[S]) -> Fault {
         self.path.splice(0..0, outer.iter().map(S::to_string));

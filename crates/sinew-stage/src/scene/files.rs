@@ -1,4 +1,4 @@
-//! Where a scene's files come from: a disk, a take, a test.
+//! Sources of a scene's files: a folder, a take, memory.
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -11,15 +11,15 @@ pub trait Files: Debug + Send + Sync {
     /// The bytes of a file, named as the scene names it: relative to the scene's folder, with `/`.
     ///
     /// # Errors
-    /// Why there are none, with a remedy; also when there are more than `most_bytes`.
+    /// Why the file cannot be read, with a remedy; also if it exceeds `most_bytes`.
     fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, String>;
 
-    /// How messages name the file.
+    /// The file's name in messages.
     fn shown(&self, path: &str) -> String {
         path.to_owned()
     }
 
-    /// Where the file lies, if it lies on a disk.
+    /// Its path, if it is on a disk.
     fn on_disk(&self, _path: &str) -> Option<PathBuf> {
         None
     }
@@ -40,7 +40,7 @@ impl HeldFile {
         HeldFile { hash: xxhash_rust::xxh3::xxh3_64(&bytes), bytes: bytes.into() }
     }
 
-    /// Its text, if it is one.
+    /// Its text, if it is UTF-8.
     pub fn text(&self) -> Option<&str> {
         std::str::from_utf8(&self.bytes).ok()
     }
@@ -57,14 +57,14 @@ impl Files for DiskFiles {
     fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, String> {
         allowed(path)?;
         let place = self.folder.join(path);
-        // Looked at before it is opened: opening a pipe would wait for its other end.
+        // Checked before it is opened: opening a pipe would wait for its other end.
         let about = std::fs::metadata(&place).map_err(|error| wording(&error))?;
         if !about.is_file() {
             return Err("this is no file; name a file".to_owned());
         }
         let file = std::fs::File::open(&place).map_err(|error| wording(&error))?;
         let mut bytes = Vec::new();
-        // One more than allowed, so that a file that grows while it is read is caught too.
+        // One byte more than the maximum, so that a file that grows while it is read is detected too.
         file.take(most_bytes + 1).read_to_end(&mut bytes).map_err(|error| wording(&error))?;
         within(bytes, most_bytes)
     }
@@ -86,11 +86,11 @@ impl Files for BTreeMap<String, Vec<u8>> {
     }
 }
 
-/// Whether a scene may name a file so. A way up (`../samples/walk.bvh`) is allowed: the scene's author wrote it, and files
-/// are only read. Places that mean another file on another machine are not.
+/// Checks a file name of a scene. A path with `..` (`../samples/walk.bvh`) is allowed: the scene's author wrote it, and
+/// files are only read. Absolute and platform-dependent paths are not.
 ///
 /// # Errors
-/// Why not.
+/// Why it is not allowed.
 pub(crate) fn allowed(path: &str) -> Result<(), String> {
     let remedy = "write it relative to the scene's folder, with `/`";
     if path.is_empty() {
@@ -107,11 +107,11 @@ pub(crate) fn allowed(path: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Whether a file's name ends as one of its kind does. A scene from a stranger can so not make a take, which holds copies of
-/// the scene's files, carry something else away.
+/// Checks the extension of a file. So an untrusted scene cannot make a take, which holds copies of the scene's files,
+/// carry other files away.
 ///
 /// # Errors
-/// How it should end.
+/// The expected extensions.
 pub(crate) fn of_kind(path: &str, kind: &FileKind) -> Result<(), String> {
     let extension = Path::new(path).extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if kind.extensions.iter().any(|known| known.eq_ignore_ascii_case(extension)) {

@@ -1,4 +1,4 @@
-//! How a character follows a performer: the settings of its tracker `kd`.
+//! Settings of a character's tracker `kd`.
 
 use super::SceneSpec;
 use super::error::Fault;
@@ -9,43 +9,43 @@ use sinew_body::humanoid::Node;
 use sinew_control::tracker::{KdDamping, KdGains, KdPreset, KdSettings};
 use std::collections::BTreeMap;
 
-/// Settings of the tracker `kd`. They are only looked at by it.
+/// Settings of the tracker `kd`. Other trackers ignore them.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct KdSpec {
     /// Gains for a purpose.
     pub preset: KdPreset,
-    /// In place of the preset's: stiffness that holds parts to their places \[1/s², per unit mass\].
+    /// In place of the preset's: stiffness of pins \[1/s², per unit mass\].
     pub k_p: Option<f64>,
     /// Its damping \[1/s, per unit mass\].
     pub d_p: Option<f64>,
-    /// Stiffness of joints \[1/s², per unit of the inertia of what hangs from them\].
+    /// Stiffness of joints \[1/s², per unit of outboard inertia\].
     pub k_q: Option<f64>,
     /// Its damping \[1/s, per unit of inertia\].
     pub d_q: Option<f64>,
-    /// Against the performer's velocity, or against the ground as the paper prints it.
+    /// Damping relative to the performer's velocity, or to the ground as in the paper.
     pub damping: KdDamping,
-    /// Give the forces that the performer's motion itself needs.
+    /// Feed-forward: add the forces that the performer's motion itself requires.
     pub feed_forward: bool,
-    /// The trunk gives way to hits; loads are held as ever.
+    /// Impact compliance: the trunk yields to impacts, not to slow loads.
     pub yields: bool,
-    /// What holds the body fades by as much of its weight as something else than the ground bears, such as a seat.
+    /// Contact support: pins fade by the share of the weight that contacts other than the ground carry, such as a seat.
     pub leans: bool,
-    /// Factor on the largest force that holds a part, 0 to 100: 1 is 1.5 weights of the body for parts of legs, 4 for others.
+    /// Factor on the maximum pin force of a part, 0 to 100: 1 is 1.5 body weights for parts of legs, 4 for others.
     pub strength: f64,
-    /// How far single parts are held, by part or alias.
+    /// Weights of single parts, by part or alias.
     pub weights: BTreeMap<String, WeightSpec>,
-    /// A prop that carries the performer's whole stage along, such as a car.
+    /// The reaction body: a prop that carries the performer along, such as a car.
     pub stands_on: Option<String>,
 }
 
-/// How far a part is held: 1 as the gains say, 0 not at all.
+/// Weights of a part: 1 full, 0 off.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct WeightSpec {
-    /// To its place, 0 to 100.
+    /// Of its pin, 0 to 100.
     pub pin: f64,
-    /// Its joint to its angles, 0 to 100.
+    /// Of its joint spring, 0 to 100.
     pub joint: f64,
 }
 
@@ -141,8 +141,8 @@ impl KdSpec {
     }
 }
 
-/// Largest gain of the tracker `kd`.
+/// Maximum gain of the tracker `kd`.
 pub(super) const MAX_GAIN: f64 = 1e5;
 
-/// Largest weight of a part.
+/// Maximum weight of a part.
 pub(super) const MAX_WEIGHT: f64 = 100.0;

@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_control::perform::LiveSettings;
 
-/// Where a performer is heard and how its stream is treated. Without a port its samples come as commands alone: from a session or
-/// a program.
+/// Port and stream settings of a performer. Without a port its samples arrive as commands alone: from a session or a
+/// program.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LiveSpec {
@@ -15,15 +15,15 @@ pub struct LiveSpec {
     pub port: Option<u16>,
     /// TCP port for BVH: its header once, then a line of channel values for each frame.
     pub raw_port: Option<u16>,
-    /// How long the last pose is held when the stream is silent \[s\].
+    /// Time for which the last pose is held when the stream is silent \[s\].
     pub hold_secs: f64,
-    /// How long it then takes, at least, to relax into standing \[s\].
+    /// Minimum time of the following blend to standing \[s\].
     pub relax_secs: f64,
     /// Factor on the stiffness when relaxed, 0 to 1.
     pub relaxed_gain: f64,
     /// Cut-off of the One-Euro filter at rest \[Hz\]; 0 for no filter.
     pub smoothing_hz: f64,
-    /// The longest that samples are kept back to even out the network's jitter \[s\].
+    /// Maximum delay of the jitter buffer \[s\].
     pub most_jitter_secs: f64,
 }
 
@@ -36,7 +36,7 @@ impl Default for LiveSpec {
 }
 
 impl LiveSpec {
-    /// How the source treats its stream.
+    /// Settings of the source.
     pub fn settings(&self) -> LiveSettings {
         LiveSettings {
             hold_secs: self.hold_secs,

@@ -1,7 +1,7 @@
-//! Scenes: a TOML file that says who and what is on the stage and what happens there.
+//! Scenes: a TOML file with the characters and props on the stage, and the commands that happen there.
 //!
-//! [`SceneSpec`] is the file as it is written; [`Scene`] is one that was read and found sound, with all files that it names.
-//! `docs/scenes.md` explains the file key by key.
+//! [`SceneSpec`] is the file as it is written; [`Scene`] is one that was read and validated, with all files that it
+//! names. `docs/scenes.md` explains the file key by key.
 
 mod character;
 mod check;

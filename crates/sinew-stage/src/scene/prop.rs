@@ -1,4 +1,4 @@
-//! Props: what characters touch, hold, stand on and are hit by.
+//! Props: rigid bodies that characters touch, hold, stand on and are hit by.
 
 use super::error::Fault;
 use super::range::{colour, number, rgb, vector};
@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_world::{Motion, Solid, Surface};
 
-/// A prop. It has exactly one form, and exactly one of `mass_kg`, `fixed`, `moving`; a sensor is fixed when none is stated.
+/// A prop. It has exactly one shape, and exactly one of `mass_kg`, `fixed`, `moving`; a sensor without them is fixed.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PropSpec {
@@ -22,31 +22,31 @@ pub struct PropSpec {
     pub ring: Option<RingSpec>,
     /// The convex hull of points \[m\], at least four that do not lie in a plane.
     pub hull_m: Option<Vec<[f64; 3]>>,
-    /// Triangles; only for what is fixed or moving.
+    /// A triangle mesh; only for fixed or moving props.
     pub mesh: Option<MeshSpec>,
-    /// Its mass \[kg\], 1e-4 to 1e6: it moves as physics has it.
+    /// Its mass \[kg\], 1e-4 to 1e6: it is dynamic.
     pub mass_kg: Option<f64>,
     /// It never moves.
     pub fixed: bool,
-    /// It moves as told and nothing stops it: a platform.
+    /// Kinematic: it moves as commanded and nothing stops it: a platform.
     pub moving: bool,
     /// Coefficient of friction, 0 to 10; 0.6 when left out.
     pub friction: Option<f64>,
     /// Coefficient of restitution, 0 to 1; 0.2 when left out.
     pub bounce: Option<f64>,
-    /// Where its centre is at the start \[m\].
+    /// Position of its centre at the start \[m\].
     pub position_m: [f64; 3],
-    /// How it is turned at the start: about x, then y, then z of the world \[degrees\].
+    /// Its rotation at the start: about x, then y, then z of the world \[degrees\].
     pub turn_deg: [f64; 3],
     /// Its velocity at the start \[m/s\].
     pub velocity_m_s: [f64; 3],
     /// Its angular velocity at the start, in the world's axes \[rad/s\].
     pub spin_rad_s: [f64; 3],
-    /// It reports touches and pushes nothing.
+    /// A sensor: detects contacts without collision response.
     pub sensor: bool,
     /// Factor on gravity; 1 when left out.
     pub gravity_scale: Option<f64>,
-    /// What air takes of its velocity and of its turning, relative to them \[1/s\].
+    /// Linear and angular damping \[1/s\].
     pub drag_per_s: f64,
     /// A Python controller that runs from the start, by name.
     pub controller: Option<String>,
@@ -55,13 +55,13 @@ pub struct PropSpec {
 }
 
 impl PropSpec {
-    /// The form about its origin; `None` when no form is stated, which a scene that was read never has.
+    /// The shape about its origin; `None` without a shape, which does not occur in a validated scene.
     pub fn solid(&self) -> Option<Solid> {
         let (form, rotation) = self.forms().form()?;
         Some(Solid { form, centre: glam::DVec3::ZERO, rotation })
     }
 
-    /// How it moves.
+    /// The kind of its motion.
     pub fn motion(&self) -> Motion {
         match self.mass_kg {
             Some(mass_kg) => Motion::Dynamic { mass_kg },
@@ -75,7 +75,7 @@ impl PropSpec {
         self.colour.as_deref().and_then(rgb)
     }
 
-    /// What the world is given; `None` as for [`PropSpec::solid`].
+    /// Its description for the world; `None` as for [`PropSpec::solid`].
     pub fn in_world(&self) -> Option<sinew_world::PropSpec> {
         let usual = sinew_world::PropSpec::new(self.solid()?, self.motion(), self.position_m.into());
         let surface = Surface {

@@ -1,4 +1,4 @@
-//! Joints: what fastens props to each other, to the ground or to a part.
+//! Joints of props: to each other, to the ground or to a part.
 
 use super::error::{Fault, known, shortened};
 use super::range::{number, optional, vector};
@@ -8,31 +8,31 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_world::{Aim, Motor, PropJointKind};
 
-/// A joint. Which of its keys count depends on its kind; others are refused.
+/// A joint. Its kind decides which keys are allowed; others are refused.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PropJointSpec {
-    /// What it fastens to what: props, `ground`, or a part as `character.part`.
+    /// The two bodies that it connects: props, `ground`, or a part as `character.part`.
     pub between: [String; 2],
     /// What it leaves free.
     pub kind: JointKind,
-    /// Where it is fastened to the first, in the world at the start \[m\]; the second prop's place when left out, the first's for ropes
-    /// and springs.
+    /// Anchor on the first, in the world at the start \[m\]. Default: the second prop's position; for ropes and springs
+    /// the first's.
     #[serde(default)]
     pub anchor_m: Option<[f64; 3]>,
-    /// Where a rope or spring is fastened to the second, in the world at the start \[m\]; its place when left out.
+    /// Anchor of a rope or spring on the second, in the world at the start \[m\]. Default: its position.
     #[serde(default)]
     pub end_m: Option<[f64; 3]>,
     /// The axis of a hinge or slider, in the world at the start.
     #[serde(default)]
     pub axis: Option<[f64; 3]>,
-    /// How far a hinge turns from where it is at the start, against and with its axis \[degrees\], within ±170; without end when left out.
+    /// Limits of a hinge relative to the start, negative and positive \[degrees\], within ±170. Default: unlimited.
     #[serde(default)]
     pub range_deg: Option<[f64; 2]>,
-    /// How far a slider slides from where it is at the start, against and with its axis \[m\]; without end when left out.
+    /// Limits of a slider relative to the start, negative and positive \[m\]. Default: unlimited.
     #[serde(default)]
     pub range_m: Option<[f64; 2]>,
-    /// Of a rope the most, of a spring at rest \[m\]; as at the start when left out.
+    /// Maximum length of a rope, rest length of a spring \[m\]. Default: the distance at the start.
     #[serde(default)]
     pub length_m: Option<f64>,
     /// A spring's stiffness \[N/m\].
@@ -41,13 +41,13 @@ pub struct PropJointSpec {
     /// A spring's damping \[N s/m\]; 0 when left out.
     #[serde(default)]
     pub damping_n_s_m: Option<f64>,
-    /// What drives a hinge or slider.
+    /// The motor of a hinge or slider.
     #[serde(default)]
     pub motor: Option<MotorSpec>,
-    /// Breaks above this force \[N\]; never when left out.
+    /// Breaks above this force \[N\]. Default: never.
     #[serde(default)]
     pub break_n: Option<f64>,
-    /// The two push each other where they touch.
+    /// The two bodies collide with each other.
     #[serde(default)]
     pub touches: bool,
 }
@@ -70,13 +70,13 @@ pub enum JointKind {
     Spring,
 }
 
-/// A motor: how strong it is, and what it aims at until a command `motor` says otherwise; at nothing when nothing is stated.
+/// A motor: its maximum strength, and its target until a command `motor` changes it. Default: no target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MotorSpec {
-    /// Largest torque of a hinge's \[N m\].
+    /// Maximum torque of a hinge's motor \[N m\].
     pub strength_n_m: Option<f64>,
-    /// Largest force of a slider's \[N\].
+    /// Maximum force of a slider's motor \[N\].
     pub strength_n: Option<f64>,
     /// A hinge's speed \[rad/s\].
     pub speed_rad_s: Option<f64>,
@@ -102,18 +102,18 @@ impl JointKind {
 }
 
 impl MotorSpec {
-    /// What it aims at at the start.
+    /// Its target at the start.
     pub fn aim(&self) -> Option<Aim> {
         aim(self.speed_rad_s, self.angle_deg, self.speed_m_s, self.shift_m)
     }
 
-    /// How strong it is \[N m, N\].
+    /// Its maximum strength \[N m, N\].
     pub fn strength(&self) -> f64 {
         self.strength_n_m.or(self.strength_n).unwrap_or(0.0)
     }
 }
 
-/// What the four ways to state an aim say.
+/// The target stated by one of the four keys.
 pub(crate) fn aim(
     speed_rad_s: Option<f64>,
     angle_deg: Option<f64>,
@@ -151,7 +151,7 @@ impl PropJointSpec {
         Some(Motor { aim: motor.aim()?, strength: motor.strength() })
     }
 
-    /// Where it is fastened to the two; `place` is where a prop of a name lies. `None` for what has no place of its own.
+    /// Its two anchors; `place` returns the position of a prop. `None` for bodies without a position of their own.
     pub fn anchors(&self, place: impl Fn(&str) -> Option<[f64; 3]>) -> Option<[DVec3; 2]> {
         let two_points = matches!(self.kind, JointKind::Rope | JointKind::Spring);
         let first = self.anchor_m.or_else(|| place(&self.between[usize::from(!two_points)]))?;

@@ -1,4 +1,4 @@
-//! From a file to a sound scene.
+//! Reads and validates a scene.
 
 use super::command_check::MAX_PYTHON_BYTES;
 use super::document::Document;
@@ -12,10 +12,10 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Largest motion file of a scene \[bytes\].
+/// Maximum size of a motion file of a scene \[bytes\].
 const MAX_CLIP_BYTES: u64 = 256 << 20;
 
-/// A scene that was read and found sound. Its tables are those of [`SceneSpec`], to which it dereferences.
+/// A validated scene. Its tables are those of [`SceneSpec`], to which it dereferences.
 #[derive(Clone, Debug)]
 pub struct Scene {
     spec: SceneSpec,
@@ -50,7 +50,7 @@ impl Scene {
     /// Reads a scene file, and all files that it names.
     ///
     /// # Errors
-    /// A file that is missing or too large, or a scene that is not sound: file, line, key, what is wrong and what to do.
+    /// A file that is missing or too large, or an invalid scene: file, line, key, problem and remedy.
     pub fn read(path: &Path) -> Result<Scene, SceneError> {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
@@ -123,7 +123,7 @@ impl Scene {
     /// The value is written as in the file; a text may come without its quotes.
     ///
     /// # Errors
-    /// A path or value that the scene cannot have; the scene then stays as it was.
+    /// An invalid path or value; the scene then does not change.
     pub fn set(&mut self, path: &str, value: &str) -> Result<(), SceneError> {
         let mut sets = self.sets.clone();
         sets.push((path.to_owned(), value.to_owned()));

@@ -1,4 +1,4 @@
-//! How a character responds: the settings of its tracker `response`.
+//! Settings of a character's tracker `response`.
 
 use super::SceneSpec;
 use super::error::Fault;
@@ -6,17 +6,17 @@ use super::range::{count, name as known_name, number};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Settings of the tracker `response`. They are only looked at by it.
+/// Settings of the tracker `response`. Other trackers ignore them.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ResponseSpec {
-    /// How far the body yields, 0.25 (stiff) to 4 (loose).
+    /// Compliance, 0.25 (stiff) to 4 (loose).
     pub compliance: f64,
     /// A moving prop that it stands on; the input is then relative to it.
     pub stands_on: Option<String>,
-    /// A hand that is to keep what it holds upright (a cup), by part or alias.
+    /// A hand that keeps a held object (a cup) upright, by part or alias.
     pub keep_upright: Option<String>,
-    /// Props that the upper body is to keep away from.
+    /// Props that the upper body avoids.
     pub avoid: Vec<String>,
 }
 

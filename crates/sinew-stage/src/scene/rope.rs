@@ -1,6 +1,7 @@
 //! Ropes: rows of short capsules with ball joints between them.
 //!
-//! A rope's pieces are props like others, `NAME_1` to `NAME_12`: hands hold them, joints fasten them, things touch them.
+//! A rope's pieces are ordinary props, `NAME_1` to `NAME_12`: hands hold them, joints connect to them, and they have
+//! contacts.
 
 use super::error::Fault;
 use super::range::{colour, number, vector};
@@ -10,13 +11,13 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A rope, straight at the start. Its ends are loose; joints or hands hold them.
+/// A rope, straight at the start. Its ends are free until a joint or a hand holds them.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RopeSpec {
-    /// Where its first end is at the start \[m\].
+    /// Position of its first end at the start \[m\].
     pub from_m: [f64; 3],
-    /// Where its other end is at the start \[m\].
+    /// Position of its other end at the start \[m\].
     pub to_m: [f64; 3],
     /// How many pieces it is made of, 2 to 64; 12 when left out. Their props are `NAME_1`, `NAME_2` and so on.
     #[serde(default = "usual_pieces")]
@@ -24,7 +25,7 @@ pub struct RopeSpec {
     /// Half its thickness \[m\]; 0.015 when left out.
     #[serde(default = "usual_radius")]
     pub radius_m: f64,
-    /// Its mass \[kg\]; 0.5 when left out. Much less than a hundredth of what hangs from it makes it stretch.
+    /// Its mass \[kg\]; 0.5 when left out. It stretches if the mass is much less than a hundredth of its load.
     #[serde(default = "usual_mass")]
     pub mass_kg: f64,
     /// Its colour in pictures, `#rrggbb`.
@@ -44,7 +45,7 @@ fn usual_mass() -> f64 {
     0.5
 }
 
-/// What air and fibres take of a piece's motion \[1/s\].
+/// Damping of a piece's motion by air and fibres \[1/s\].
 const DRAG_PER_S: f64 = 1.0;
 
 impl RopeSpec {
@@ -53,14 +54,14 @@ impl RopeSpec {
         format!("{rope}_{number}")
     }
 
-    /// Where the piece of this number, counted from 1, begins; that after the last one is the rope's end \[m\].
+    /// Start of the piece of this number, counted from 1; that after the last one is the rope's end \[m\].
     pub fn joint(&self, number: usize) -> DVec3 {
         let (from, to) = (DVec3::from(self.from_m), DVec3::from(self.to_m));
         from + (to - from) * ((number - 1) as f64 / self.pieces as f64)
     }
 
-    /// Pairs of pieces that a rope of its own holds together, beside the joint of neighbours: so a pull need not be handed on by
-    /// every joint in turn, which solvers do badly.
+    /// Pairs of pieces that are connected by additional rope joints: so a pull does not have to propagate joint by
+    /// joint, which iterative solvers do slowly.
     pub fn spans(&self) -> Vec<(usize, usize)> {
         let mut spans = Vec::new();
         let mut reach = 2;
@@ -88,7 +89,7 @@ impl RopeSpec {
 }
 
 impl SceneSpec {
-    /// Puts the pieces of all ropes among the props.
+    /// Adds the pieces of all ropes to the props.
     pub(super) fn lay_ropes(&mut self) -> Result<(), Fault> {
         super::range::count(&["ropes"], self.ropes.len(), 64)?;
         for (name, rope) in &self.ropes {

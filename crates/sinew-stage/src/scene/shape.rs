@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_world::{Form, Solid};
 
-/// A shape with a name, which the command `shape` gives to a part. Exactly one form is stated.
+/// A named shape, which the command `shape` gives to a part. It has exactly one of these keys.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ShapeSpec {
@@ -23,9 +23,9 @@ pub struct ShapeSpec {
     pub hull_m: Option<Vec<[f64; 3]>>,
     /// Triangles, without an inside.
     pub mesh: Option<MeshSpec>,
-    /// Where its centre is in the part's anatomical frame (x left, y up along the bone, z forward) \[m\].
+    /// Position of its centre in the part's anatomical frame (x left, y up along the bone, z forward) \[m\].
     pub centre_m: [f64; 3],
-    /// How it is turned: about x, then y, then z of the part \[degrees\].
+    /// Its rotation: about x, then y, then z of the part \[degrees\].
     pub turn_deg: [f64; 3],
 }
 
@@ -37,7 +37,7 @@ pub struct CapsuleSpec {
     pub radius_m: f64,
     /// Length without the round ends \[m\].
     pub length_m: f64,
-    /// Along which axis it lies; y when left out.
+    /// Its axis. Default: y.
     #[serde(default)]
     pub axis: AxisName,
 }
@@ -87,7 +87,7 @@ pub(super) struct Forms<'a> {
 const FORMS: &str = "box_m, ball_radius_m, capsule, ring, hull_m, mesh";
 
 impl ShapeSpec {
-    /// The shape in the part's frame; `None` when no form is stated, which a scene that was read never has.
+    /// The shape in the part's frame; `None` without a shape, which does not occur in a validated scene.
     pub fn solid(&self) -> Option<Solid> {
         let (form, turn) = self.forms().form()?;
         Some(Solid { form, centre: self.centre_m.into(), rotation: rotation(self.turn_deg) * turn })
@@ -137,7 +137,7 @@ impl Forms<'_> {
         Some((form, DQuat::IDENTITY))
     }
 
-    /// One form, with sound sizes.
+    /// Checks that there is exactly one shape with valid sizes.
     pub(super) fn check(&self, path: &[&str; 2]) -> Result<(), Fault> {
         let stated = [
             ("box_m", self.box_m.is_some()),

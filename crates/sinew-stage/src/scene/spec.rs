@@ -9,7 +9,7 @@ use serde::Deserialize;
 use sinew_control::{GraphSpec, PoseSpec};
 use std::collections::BTreeMap;
 
-/// A scene: who and what is on the stage, and what happens there.
+/// A scene: the characters and props on the stage, and the commands that happen there.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SceneSpec {
@@ -22,7 +22,7 @@ pub struct SceneSpec {
     /// Rates, gravity, floor.
     #[serde(default)]
     pub stage: StageSpec,
-    /// When and from where pictures are taken.
+    /// The camera: when and from where pictures are taken.
     #[serde(default)]
     pub camera: CameraSpec,
     /// Shapes that the command `shape` gives to parts.
@@ -52,7 +52,7 @@ pub struct SceneSpec {
     /// Commands at a time, in the order of the file.
     #[serde(default)]
     pub at: Vec<Timed>,
-    /// Commands when something touches.
+    /// Commands at contacts.
     #[serde(default)]
     pub when: Vec<Reaction>,
     /// Commands when a key is pressed.

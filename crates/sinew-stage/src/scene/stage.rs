@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_world::{Surface, WorldSettings};
 
-/// Rates, gravity, floor: what all in the scene share.
+/// Rates, gravity, floor: settings of the whole scene.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct StageSpec {
@@ -16,11 +16,11 @@ pub struct StageSpec {
     pub motion_hz: u32,
     /// Downward gravity \[m/s²\], 0 to 1000.
     pub gravity_m_s2: f64,
-    /// Where every random choice comes from.
+    /// Seed of all random choices.
     pub seed: u64,
-    /// How long a run lasts when it is not told \[s\], up to 3600.
+    /// Default duration of a run \[s\], up to 3600.
     pub duration_secs: f64,
-    /// Sub-steps of the solver in each physics step, 1 to 64: more hold joints tighter and cost more.
+    /// Sub-steps of the solver in each physics step, 1 to 64: more make joints stiffer and cost more.
     pub solver_iterations: u32,
     /// The ground at height 0, or `false` for none.
     pub floor: FloorSpec,
@@ -32,13 +32,13 @@ pub struct StageSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(untagged, expecting = "expected `false` for no floor, `true`, or `{ friction = 0.9, bounce = 0.0 }`")]
 pub enum FloorSpec {
-    /// `false` for none, `true` for the usual one.
+    /// `false` for none, `true` for the default one.
     Is(bool),
-    /// How it rubs and bounces.
+    /// Its friction and restitution.
     Surface(FloorSurface),
 }
 
-/// How the ground rubs and bounces.
+/// Friction and restitution of the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FloorSurface {
@@ -52,7 +52,7 @@ pub struct FloorSurface {
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraSpec {
-    /// The side that the camera stands on \[degrees about +Y from +Z to +X\]: 0 looks at the faces of those that face +Z.
+    /// Azimuth of the camera \[degrees about +Y from +Z to +X\]: 0 looks at the faces of characters that face +Z.
     pub from_deg: f64,
     /// When pictures are taken \[s\]; evenly spread over the run when left out.
     pub times_secs: Vec<f64>,
@@ -86,7 +86,7 @@ impl Default for CameraSpec {
 }
 
 impl StageSpec {
-    /// What the world is made with.
+    /// Settings of the world.
     pub fn world_settings(&self) -> WorldSettings {
         let floor = match self.floor {
             FloorSpec::Is(false) => None,
@@ -146,10 +146,10 @@ impl CameraSpec {
     }
 }
 
-/// The longest run \[s\].
+/// Maximum duration of a run \[s\].
 pub(super) const MAX_SECS: f64 = 3600.0;
 
-/// Friction and bounce of something.
+/// Checks friction and restitution.
 pub(super) fn surface_check<S: ToString>(path: &[S], friction: Option<f64>, bounce: Option<f64>) -> Result<(), Fault> {
     let check = |key: &str, value: Option<f64>, most: f64, hint: &str| match value {
         Some(value) => number::<&str>(&[key], value, 0.0..=most, hint).map_err(|fault| fault.below(path)),

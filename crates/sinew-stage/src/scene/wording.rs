@@ -1,4 +1,4 @@
-//! Serde's errors in the words of a scene's author.
+//! Translates serde's errors for authors of scenes.
 
 use super::error::{Fault, known, shortened};
 

@@ -1,14 +1,14 @@
-//! What is wrong with a take.
+//! Errors of a take.
 
-/// A take that cannot be used.
+/// An invalid take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TakeError {
-    /// A line that is not what it should be.
+    /// An invalid line.
     #[error("line {line} of the take: {problem}")]
     Line {
         /// Counted from 1.
         line: usize,
-        /// What is wrong with it and what to do.
+        /// The problem and the remedy.
         problem: String,
     },
     /// The file as a whole.

@@ -18,7 +18,7 @@ pub(super) struct Header {
     pub sets: Vec<(String, String)>,
 }
 
-/// What is read of a header of any version.
+/// The part of a header that every version has.
 #[derive(Deserialize)]
 pub(super) struct AnyHeader {
     pub sinew: String,

@@ -8,26 +8,26 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
-/// Largest take \[bytes\].
+/// Maximum size of a take \[bytes\].
 pub(super) const MAX_BYTES: usize = 256 << 20;
 
-/// Longest line \[bytes\]: a file of 4 MiB whose every character is escaped.
+/// Maximum length of a line \[bytes\]: a file of 4 MiB whose every character is escaped.
 pub(super) const MAX_LINE_BYTES: usize = 25 << 20;
 
-/// Most commands in a take.
+/// Maximum number of commands in a take.
 pub(super) const MAX_COMMANDS: usize = 1_000_000;
 
-/// Most files in a take.
+/// Maximum number of files in a take.
 const MAX_FILES: usize = 2_000;
 
 impl Take {
     /// Reads a take file.
     ///
     /// # Errors
-    /// A file that cannot be read or is no sound take: which line, what is wrong and what to do.
+    /// A file that cannot be read or is not a valid take: line, problem and remedy.
     pub fn open(path: &Path) -> Result<Take, TakeError> {
         let whole = |problem: String| TakeError::Whole(format!("{}: {problem}", path.display()));
-        // Looked at before it is opened: opening a pipe would wait for its other end.
+        // Checked before it is opened: opening a pipe would wait for its other end.
         let about = std::fs::metadata(path).map_err(|error| whole(format!("the take cannot be read: {error}")))?;
         if !about.is_file() {
             return Err(whole("this is no file; name a take".to_owned()));

@@ -1,4 +1,4 @@
-//! What a take holds.
+//! The contents of a take.
 
 use crate::scene::{HeldFile, Scene};
 use sinew_control::Command;
@@ -23,17 +23,17 @@ pub struct Take {
     pub sets: Vec<(String, String)>,
     /// Every file that the scene used, by the name that the scene uses for it.
     pub files: BTreeMap<String, TakeFile>,
-    /// Commands from outside the scene, by the step before which they were carried out; never falling.
+    /// Commands from outside the scene, by the step before which they were applied; in ascending order.
     pub commands: Vec<Stamped>,
     /// Physics steps done.
     pub steps: u64,
     /// Hash over all physics steps.
     pub hash: u64,
-    /// Hashes on the way, to find where a replay leaves the take.
+    /// Intermediate hashes, to find where a replay diverges from the take.
     pub trace: Option<HashTrace>,
 }
 
-/// A command and its time.
+/// A command and its step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stamped {
     /// Physics steps done before it.
@@ -51,16 +51,16 @@ pub struct TakeFile {
     pub bytes: Option<Arc<[u8]>>,
 }
 
-/// The hash after every so many steps.
+/// Hashes at regular intervals.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HashTrace {
-    /// Steps from one to the next, at least 1.
+    /// Steps between two hashes, at least 1.
     pub every_steps: u64,
     /// The hash over all steps until then.
     pub hashes: Vec<u64>,
 }
 
-/// The commands of a step, of commands whose steps never fall.
+/// The commands of a step, from commands in ascending order of steps.
 pub fn due(commands: &[Stamped], step: u64) -> &[Stamped] {
     let from = commands.partition_point(|stamped| stamped.step < step);
     let rest = &commands[from..];
@@ -88,7 +88,7 @@ impl Take {
         }
     }
 
-    /// Adds a command that is carried out before the next of `step` steps.
+    /// Adds a command that is applied after `step` steps.
     pub fn push(&mut self, step: u64, command: Command) {
         self.commands.push(Stamped { step, command });
     }

@@ -1,4 +1,4 @@
-//! From a take back to its scene.
+//! Restores the scene of a take.
 
 use super::{Take, TakeFile};
 use crate::scene::{DiskFiles, Files, Scene, SceneError};
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Files of a take: what it holds, and large ones from the disk if they are still what they were.
+/// Files of a take: those that it holds, and large ones from the disk if their hash is unchanged.
 #[derive(Clone, Debug)]
 struct TakeFiles {
     files: BTreeMap<String, TakeFile>,
@@ -38,11 +38,11 @@ impl Files for TakeFiles {
 }
 
 impl Take {
-    /// The scene as it was recorded. `folder` is where large files are looked for, of which the take has only the hash: the
-    /// folder that the scene file was in.
+    /// The scene as it was recorded. `folder`, the folder of the scene file, is searched for large files, of which the
+    /// take has only the hash.
     ///
     /// # Errors
-    /// A scene that this version does not read, or a large file that is gone or has changed.
+    /// A scene that this version cannot read, or a large file that is missing or has changed.
     pub fn to_scene(&self, folder: Option<&Path>) -> Result<Scene, SceneError> {
         let disk = folder.map(|folder| DiskFiles { folder: folder.to_owned() });
         let scene = Scene::load(&self.scene, Arc::new(TakeFiles { files: self.files.clone(), disk }), &self.sets)?;

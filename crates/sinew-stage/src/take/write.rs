@@ -7,11 +7,11 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::path::Path;
 
-/// Largest file that a take holds \[bytes\]; of larger ones it keeps the hash. A motion of a few minutes fits.
+/// Maximum size of a file in a take \[bytes\]; of larger ones it keeps the hash. A motion of a few minutes fits.
 pub(super) const MAX_HELD_BYTES: usize = 4 << 20;
 
 impl Take {
-    /// Writes the take to a file, whole or not at all.
+    /// Writes the take to a file, atomically.
     ///
     /// # Errors
     /// As [`Take::to_bytes`], and a folder that cannot be written to.
@@ -23,7 +23,8 @@ impl Take {
     /// The take file's content.
     ///
     /// # Errors
-    /// A command that would not be read again as it is, such as one with an infinite force, and a take beyond the limits.
+    /// A command that cannot be read back unchanged, such as one with an infinite force, or a take that exceeds the
+    /// limits.
     pub fn to_bytes(&self) -> Result<Vec<u8>, TakeError> {
         let mut out = Vec::new();
         let header = Header {

@@ -1,4 +1,4 @@
-//! Arms that swing when a fall is near, and a head that stays upright.
+//! Arm swing against a fall, and a head that stays upright.
 
 use super::flywheel::{Flywheel, Swing};
 use super::legs::smooth;
@@ -15,20 +15,20 @@ pub(super) struct Arms {
     roll: Flywheel,
 }
 
-/// Frequency with which arms come back \[rad/s\]: they hang again after a second.
+/// Return frequency of the arms \[rad/s\]: they hang again after a second.
 const BACK_RAD_S: f64 = 4.0;
 
-/// Angular acceleration of an arm that is thrown \[rad/s²\].
+/// Angular acceleration of an arm swing \[rad/s²\].
 const THROW_RAD_S2: f64 = 25.0;
 
-/// How far the centre of pressure would have to lie outside the soles for arms to be thrown in full \[m\].
+/// Distance of the required centre of pressure outside the soles at which arms swing in full \[m\].
 const FULL_M: f64 = 0.06;
 
 snapshot!(Arms { pitch, roll });
 
 impl Arms {
-    /// Goes on by a step. `beyond` is how far the centre of pressure would have to lie outside the soles \[m\], `swing_rad` how far
-    /// the arms may swing.
+    /// Advances by a step. `beyond` is the distance of the required centre of pressure outside the soles \[m\],
+    /// `swing_rad` the maximum swing of the arms.
     pub fn step(&mut self, sense: &Sense, beyond: DVec2, swing_rad: f64) {
         let me = sense.character();
         let beyond = DVec3::new(beyond.x, 0.0, beyond.y);
@@ -47,7 +47,8 @@ impl Arms {
         go(&mut self.roll, -beyond.dot(me.left()));
     }
 
-    /// Turns the upper arms: both backward or forward, the outer one up. Arms that hang swing most, others are about something.
+    /// Rotates the upper arms: both backward or forward, the outer one up. Hanging arms swing most; others may be in
+    /// use.
     pub fn drive(&self, sense: &Sense, strength: f64, target: &mut Wanted) {
         let me = sense.character();
         for (shoulder, arm, side) in
@@ -66,7 +67,8 @@ impl Arms {
     }
 }
 
-/// Turns neck and head back by what the chest is off upright; `off` takes it there (world axes) \[rad\].
+/// Rotates neck and head back by the chest's deviation from upright; `off` is the rotation that takes it upright (world
+/// axes) \[rad\].
 pub(super) fn level_head(sense: &Sense, off: DVec3, strength: f64, target: &mut Wanted) {
     let turn = off.clamp_length_max(MAX_HEAD_RAD) * (0.5 * strength);
     for (above, node) in [(Node::Chest, Node::Neck), (Node::Neck, Node::Head)] {
@@ -76,5 +78,5 @@ pub(super) fn level_head(sense: &Sense, off: DVec3, strength: f64, target: &mut 
     }
 }
 
-/// How far the head is turned back \[rad\].
+/// Maximum rotation of the head \[rad\].
 const MAX_HEAD_RAD: f64 = 0.6;

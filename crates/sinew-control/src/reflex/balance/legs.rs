@@ -1,4 +1,4 @@
-//! Forces of the ground, and the torques of the legs that call them forth.
+//! Ground reaction forces, and the leg torques that produce them.
 
 use super::split::Split;
 use super::stance::{Stance, leg, lift};
@@ -7,7 +7,7 @@ use crate::{JointTarget, Wanted};
 use glam::{DVec2, DVec3};
 use sinew_body::humanoid::{Node, exp, log, swing_twist};
 
-/// What the ground is to do.
+/// The wanted ground reaction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ground {
     /// Share of each foot \[1\].
@@ -16,21 +16,21 @@ pub(super) struct Ground {
     pub points: [DVec3; 2],
     /// Force on each foot \[N\].
     pub forces: [DVec3; 2],
-    /// What that accelerates the centre of mass with \[m/s²\].
+    /// The resulting acceleration of the centre of mass \[m/s²\].
     pub acceleration: DVec3,
 }
 
-/// Largest horizontal force \[1 of the weight\]: shoes slip beyond it.
+/// Maximum horizontal force \[1 of the weight\]: shoes slip beyond it.
 const GRIP: f64 = 0.7;
 
-/// Share of the weight from which on a foot is taken to touch \[1\].
+/// Minimum load of a foot in contact \[1 of the weight\].
 const TOUCHING: f64 = 0.05;
 
 /// Share of its stiffness with which a joint that is held by torques keeps its twist while both feet stand \[1\]. A twisted foot creeps: the solver's
 /// friction lets a strong spring turn it, and in the wrong direction.
 const TWIST_GAIN: f64 = 0.1;
 
-/// How firmly rising and sinking is slowed, relative to √(g/h) \[1\].
+/// Vertical damping, relative to √(g/h) \[1\].
 const SLOWING: f64 = 1.0;
 
 impl Ground {
@@ -58,7 +58,7 @@ impl Ground {
     }
 }
 
-/// Sets the joints of both legs so that the ground pushes as it should. `strength` fades it in and out, 0 to 1.
+/// Sets the joints of both legs to produce the wanted ground reaction. `strength` fades it in and out, 0 to 1.
 pub(super) fn drive(
     sense: &Sense,
     stance: &Stance,
@@ -72,9 +72,9 @@ pub(super) fn drive(
     for side in 0..2 {
         let share = ground.shares[side];
         let force = ground.forces[side];
-        // What does not touch the ground cannot push it.
+        // A foot without contact has no ground reaction.
         let held = strength * smooth(share / 0.15) * smooth(load_n[side] / (TOUCHING * weight));
-        // A leg that stands alone keeps the hips' heading.
+        // A single stance leg keeps the hips' heading.
         let shared = smooth(load_n[1 - side] / (0.2 * weight));
         let twist_gain = 1.0 + (TWIST_GAIN - 1.0) * shared;
         let nodes = leg(side);
@@ -83,7 +83,7 @@ pub(super) fn drive(
         let mut below = (DVec3::ZERO, DVec3::ZERO);
         for node in nodes {
             let (part, link) = (me.part(node), sense.body.link(node));
-            // Weight and inertia of the part itself: it goes along as a pendulum about the ground would.
+            // Weight and inertia of the part itself, which moves like a pendulum about the ground.
             let tilt = ((part.centre.y - stance.ground_m) / stance.height_m).clamp(0.0, 1.0);
             let own = DVec3::new(0.0, -sense.gravity_m_s2, 0.0) - ground.acceleration * tilt;
             below.0 += own * link.mass_kg;
@@ -92,8 +92,8 @@ pub(super) fn drive(
                 -((ground.points[side] - part.position).cross(force) + below.1 - part.position.cross(below.0));
             let joint = target.joint_mut(node);
             if node == nodes[0] {
-                // Under the load that the foot really bears, the pressure's centre is then where it should be. (More for
-                // more load would throw the body up from its toes.)
+                // Under the actual load of the foot, the centre of pressure is then where it is wanted. (More for more
+                // load would throw the body up from its toes.)
                 torque *= (load_n[side] / force.y.max(1.0)).clamp(0.5, 1.0);
             }
             if node == nodes[1] {
@@ -106,7 +106,7 @@ pub(super) fn drive(
                 joint.torque += torque * held;
                 joint.gain = joint.gain.max(held);
                 let damping = if node == nodes[0] { 0.1 } else { 0.3 };
-                // A foot that should stand but bears nothing goes back to its print, level.
+                // A foot that should stand but is not loaded returns to its last placement, level.
                 let astray = match (stance.stands[side], node == nodes[0]) {
                     (false, _) => None,
                     (true, true) => Some(bone.cross(DVec3::Y)),
@@ -121,10 +121,10 @@ pub(super) fn drive(
     }
 }
 
-/// Lets a joint's spring go but for the twist about its bone, so that torques alone act about the other axes as far as the leg is
-/// `held` by them. The spring's wanted place follows the joint: it still keeps light parts from chattering within a step.
-/// Without a load the spring aims at the pose, or turns the joint by `astray` (world axes). Held, it has these shares
-/// of its gain and damping.
+/// Lets a joint's spring go but for the twist about its bone, so that torques alone act about the other axes as far as
+/// the leg is `held` by them. The spring's target follows the joint: it still prevents light parts from chattering
+/// within a step. Without a load the spring aims at the pose, or turns the joint by `astray` (world axes). Held, it has
+/// these shares of its gain and damping.
 fn yield_across(
     sense: &Sense,
     node: Node,
@@ -152,7 +152,7 @@ fn yield_across(
     let node_from_world = part.rotation.conjugate();
     let spin = node_from_world * (part.angular_velocity - above.angular_velocity);
     if astray.is_some() {
-        // It does not go along with what turns above it.
+        // It does not rotate with the parts above it.
         joint.velocity = node_from_world * -above.angular_velocity;
     }
     // Damping acts on the twist alone.

@@ -1,26 +1,25 @@
 //! Standing balance by ankles, hips and arms, as long as no step is needed.
 //!
-//! The body is taken for an inverted pendulum. Its *capture point* ξ = c + v/ω, with ω = √(g/h), is where the centre of mass
-//! would come to rest over; it runs away from the centre of pressure p by dξ/dt = ω (ξ − p). So:
+//! The body is modelled as an inverted pendulum. Its *capture point* ξ = c + v/ω, with ω = √(g/h), is where the centre
+//! of mass would come to rest over; it runs away from the centre of pressure p by dξ/dt = ω (ξ − p). So:
 //!
 //! 1. `stance.rs`: which feet stand, where the weight should rest between them, and ξ over the ground they stand on.
 //! 2. The wanted p lies beyond ξ, seen from the resting point, and is brought to the nearest point of the polygon of both soles
 //!    (`polygon.rs`, `sole.rs`).
-//! 3. What p lacks is made up for by turning: the hips pitch, the chest bends sideways (`trunk.rs`), arms swing (`arms.rs`),
-//!    all in the sense of the fall, and come back. A moment M of the ground about the centre of mass shifts the ground's force by
-//!    M/h as a centre of pressure outside the soles would.
-//! 4. p and M give the ground's force; `split.rs` shares it between the feet, `pair.rs` adds what they do against each other.
-//! 5. `legs.rs`: each joint of a leg gets the torque by which that force is borne, with the weight and inertia of what hangs
-//!    below it. Ankles and hips yield to these torques, knees keep their springs.
+//! 3. The rest is produced by angular momentum (hip strategy): the hips pitch, the chest bends sideways
+//!    (`trunk.rs`), arms swing (`arms.rs`), all in the direction of the fall, and return. A moment M of the ground
+//!    about the centre of mass shifts the ground's force by M/h as a centre of pressure outside the soles would.
+//! 4. p and M give the ground's force; `split.rs` distributes it over the feet, `pair.rs` adds their opposed forces.
+//! 5. `legs.rs`: each joint of a leg gets the torque that transmits that force, with the weight and inertia of the
+//!    parts below it. Ankles and hips yield to these torques, knees keep their springs.
 //!
-//! The pose decides all the rest: how far knees bend, where the feet are to each other, how upright the hips are on level
-//! feet, what the arms do.
+//! The pose decides the rest: knee flexion, foot placement, lean of the hips on level feet, arms.
 //!
-//! A body of 80 kg and 1.7 m that stands straight, pushed for 0.1 s on the hips at the height of its centre of mass, stands
-//! the impulses below (example `balance`). The bound is m √(g/h) times the distance from the centre of mass to the edge of
-//! the ground under the soles: what a body could stand that neither steps nor bends.
+//! A body of 80 kg and 1.7 m that stands straight, pushed for 0.1 s on the hips at the height of its centre of mass,
+//! withstands the impulses below (example `balance`). The bound is m √(g/h) times the distance from the centre of mass
+//! to the edge of the ground under the soles: the limit of a stiff body without a step.
 //!
-//! | towards | distance (m) | bound (N s) | stands (N s) | share |
+//! | towards | distance (m) | bound (N s) | withstands (N s) | share |
 //! |---|---|---|---|---|
 //! | front | 0.131 | 33.3 | 39.0 | 117 % |
 //! | front left, front right | 0.186 | 47.1 | 49.3, 48.9 | 105 %, 104 % |
@@ -28,7 +27,8 @@
 //! | back left, back right | 0.135 | 34.1 | 37.4, 38.6 | 110 %, 113 % |
 //! | back | 0.095 | 24.1 | 27.3 | 113 % |
 //!
-//! On the chest, 0.3 m over the centre of mass, the trunk is thrown the wrong way first: 80 to 85 % all around.
+//! On the chest, 0.3 m above the centre of mass, the push first rotates the trunk in the wrong direction: 80 to 85 % in
+//! all directions.
 
 mod arms;
 mod flywheel;
@@ -55,7 +55,7 @@ use sole::{Footing, Sole};
 use stance::Stance;
 use trunk::Trunk;
 
-/// Keeps a standing character up.
+/// The balance reflex.
 #[derive(Clone, Debug)]
 pub struct Balance {
     settings: BalanceSettings,
@@ -65,17 +65,18 @@ pub struct Balance {
     pair: Pair,
     /// Upward forces on the feet, smoothed \[N\].
     load_n: [f64; 2],
-    /// How far each foot is taken for one that stands, 0 to 1.
+    /// Contact estimate of each foot, 0 to 1.
     bearing: Option<[f64; 2]>,
-    /// Where each foot last stood.
+    /// Last placement of each foot.
     prints: Option<[Footing; 2]>,
-    /// How fast the ground under the feet moves, smoothed \[m/s\].
+    /// Velocity of the ground under the feet, smoothed \[m/s\].
     ground_velocity: DVec2,
 }
 
 snapshot!(Balance { trunk, arms, load_n, bearing, prints, ground_velocity } fixed { settings, soles, pair });
 
-/// Time over which the ground's velocity is smoothed \[s\]: feet that tip or slip for a moment are no moving ground.
+/// Time over which the ground's velocity is smoothed \[s\]: feet that tip or slip for a moment do not count as moving
+/// ground.
 const GROUND_SECS: f64 = 0.1;
 
 impl Balance {
@@ -142,7 +143,7 @@ impl Reflex for Balance {
 }
 
 impl Balance {
-    /// How much of the reflex acts: none in the air, and none when the fall is beyond it.
+    /// Strength of the reflex: 0 in the air, and 0 when the fall cannot be stopped.
     fn strength(&self, sense: &Sense, stance: &Stance) -> f64 {
         let weight = sense.body.mass_kg() * sense.gravity_m_s2;
         let borne = (self.load_n[0] + self.load_n[1]) / weight;
@@ -151,8 +152,8 @@ impl Balance {
         smooth(borne / 0.3) * (1.0 - smooth((out - 0.2) / 0.15))
     }
 
-    /// Takes down where feet stand; the print of one that tips up or is lifted without being meant to is kept, so that it
-    /// comes back there. Returns how high such a foot is over its print \[m\].
+    /// Stores the placements of feet; a foot that tips or is lifted unintentionally keeps its placement and returns
+    /// there. Returns the height of such a foot above its placement \[m\].
     fn follow_prints(&mut self, sense: &Sense, bearing: &[f64; 2]) -> f64 {
         let me = sense.character();
         let now = [0, 1].map(|side| self.soles[side].under(me.part(LEGS[side].2)));

@@ -1,7 +1,7 @@
-//! What both feet do against each other: they turn the body on the spot and keep their distance.
+//! Opposed forces of both feet: they turn the body on the spot and keep the feet's distance.
 //!
-//! Feet that stand hold each other by friction alone, and pushes, and any solver's friction in the long run, move them a
-//! little. Hips that turn over planted feet sink, and so do legs that part; without a pull back both would grow.
+//! Planted feet are held by friction alone, and pushes, and any solver's friction in the long run, move them a little.
+//! Hips that rotate over planted feet sink, and so do legs that spread; without a restoring force both would grow.
 
 use super::stance::Stance;
 use crate::Wanted;
@@ -16,13 +16,13 @@ pub(super) struct Pair {
     inertia: f64,
 }
 
-/// Frequency with which the hips come back to their heading \[rad/s\].
+/// Return frequency of the hips' heading \[rad/s\].
 const HEADING_RAD_S: f64 = 6.0;
 
-/// Feet that stand wrong by one part in ten of the stature are pulled with so much of the weight \[1\].
+/// Restoring force for a foot placement error of a tenth of the stature \[1 of the weight\].
 const PULL: f64 = 0.1;
 
-/// Largest force of the feet against each other, relative to what the lighter one bears \[1\]: more would make it slip.
+/// Maximum opposed force, relative to the load of the less loaded foot \[1\]: more would make it slip.
 const GRIP: f64 = 0.2;
 
 impl Pair {
@@ -51,7 +51,7 @@ impl Pair {
         let meant = level(meant_ankle(sense.body, target, 0) - meant_ankle(sense.body, target, 1));
         let (distance, meant_distance) = (apart.length(), meant.length());
         let Some(along) = apart.try_normalize() else { return DVec3::ZERO };
-        // The nearer the feet, the less they say about where the hips should face.
+        // Near feet define the heading of the hips less well.
         let heading = |direction: DVec3| libm::atan2(direction.x, direction.z);
         let off = wrap(heading(apart) - heading(meant) - heading(me.facing));
         let spin = me.part(Node::Hips).angular_velocity.y;
@@ -64,7 +64,7 @@ impl Pair {
     }
 }
 
-/// Where the wanted pose has an ankle, in the hips' frame \[m\].
+/// Position of an ankle in the wanted pose, in the hips' frame \[m\].
 fn meant_ankle(body: &Body, target: &Wanted, side: usize) -> DVec3 {
     let (upper, lower, foot) = LEGS[side];
     let (mut place, mut turn) = (DVec3::ZERO, DQuat::IDENTITY);

@@ -1,14 +1,14 @@
-//! The ground under both soles: a convex polygon seen from above, without memory of its own on the heap.
+//! The support polygon under both soles: convex, seen from above, without heap memory.
 
 use glam::{DVec2, DVec3};
 
 /// Corners of two soles.
-const MOST: usize = 8;
+const MAX_CORNERS: usize = 8;
 
 /// A convex polygon over the ground, in the world's x and z.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polygon {
-    corners: [DVec2; MOST],
+    corners: [DVec2; MAX_CORNERS],
     count: usize,
 }
 
@@ -20,13 +20,13 @@ pub(super) fn flat(point: DVec3) -> DVec2 {
 impl Polygon {
     /// The hull of up to eight points.
     pub fn hull(points: &[DVec2]) -> Polygon {
-        let mut sorted = [DVec2::ZERO; MOST];
-        let total = points.len().min(MOST);
+        let mut sorted = [DVec2::ZERO; MAX_CORNERS];
+        let total = points.len().min(MAX_CORNERS);
         sorted[..total].copy_from_slice(&points[..total]);
         let sorted = &mut sorted[..total];
         sorted.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         // Andrew's monotone chain: below from the left, then above from the right.
-        let mut chain = [DVec2::ZERO; 2 * MOST];
+        let mut chain = [DVec2::ZERO; 2 * MAX_CORNERS];
         let mut count = 0;
         for pass in 0..2 {
             let base = count;
@@ -42,8 +42,8 @@ impl Polygon {
             }
             count = count.saturating_sub(1);
         }
-        let count = count.min(MOST);
-        let mut corners = [DVec2::ZERO; MOST];
+        let count = count.min(MAX_CORNERS);
+        let mut corners = [DVec2::ZERO; MAX_CORNERS];
         corners[..count].copy_from_slice(&chain[..count]);
         if count == 0 && total > 0 {
             corners[0] = sorted[0];

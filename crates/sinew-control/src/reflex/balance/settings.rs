@@ -1,24 +1,24 @@
 //! Constants of standing balance.
 
-/// How a body balances.
+/// Settings of the balance reflex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BalanceSettings {
-    /// How firmly the centre of pressure answers to the capture point's distance from where it should rest: that distance
-    /// shrinks by this share times √(g/h) a second \[1\].
+    /// Gain of the centre of pressure on the capture point's distance from its resting point: that distance shrinks by
+    /// this share times √(g/h) a second \[1\].
     pub firmness: f64,
-    /// Where the weight rests along a sole, from the heel \[1 of its length\].
+    /// Resting position of the weight along a sole, from the heel \[1 of its length\].
     pub rest_share: f64,
-    /// The centre of pressure stays so far from the edges of a sole \[1 of the stature\].
+    /// Margin of the centre of pressure to the edges of a sole \[1 of the stature\].
     pub edge_margin: f64,
-    /// Frequency with which hips and trunk come back upright \[Hz\].
+    /// Return frequency of hips and trunk to upright \[Hz\].
     pub upright_hz: f64,
     /// Damping ratio of that \[1\].
     pub upright_damping: f64,
-    /// Largest moment with which the trunk is thrown after a fall \[1 of m g h\].
+    /// Maximum moment of the trunk against a fall \[1 of m g h\].
     pub trunk_moment: f64,
-    /// How far the trunk may lean in such a throw: forward, backward, sideways \[rad\].
+    /// Maximum lean of the trunk: forward, backward, sideways \[rad\].
     pub trunk_lean: [f64; 3],
-    /// How far the arms swing \[rad\]; 0 leaves them alone.
+    /// Maximum swing of the arms \[rad\]; 0 switches it off.
     pub arm_swing: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A foot as something to stand on.
+//! A foot as support.
 
 use super::polygon::{Polygon, flat};
 use crate::Wanted;
@@ -17,15 +17,15 @@ pub(super) struct Sole {
 /// A sole in the world.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Footing {
-    /// Corners between which the centre of pressure may be.
+    /// Corners of the region for the centre of pressure.
     pub corners: [DVec2; 4],
-    /// Where the weight rests in quiet standing.
+    /// Resting point of the weight in quiet standing.
     pub rest: DVec2,
     /// Height of the sole \[m\].
     pub height_m: f64,
-    /// `world_from_foot` if the foot lay flat.
+    /// `world_from_foot` of the flat foot.
     pub level: DQuat,
-    /// Where the ankle is \[m\].
+    /// Position of the ankle \[m\].
     pub ankle: DVec3,
 }
 
@@ -47,7 +47,7 @@ impl Sole {
         }
     }
 
-    /// Height over the hips at which the wanted pose has the sole, were the hips upright \[m\].
+    /// Height of the sole relative to the hips in the wanted pose with upright hips \[m\].
     pub fn meant_height_m(&self, body: &Body, target: &Wanted, side: usize) -> f64 {
         let (upper, lower, foot) = LEGS[side];
         let (mut place, mut turn) = (DVec3::ZERO, DQuat::IDENTITY);

@@ -1,10 +1,10 @@
-//! How one centre of pressure is shared by two feet.
+//! Distribution of one centre of pressure over two feet.
 
 use super::sole::Footing;
 use super::stance::Stance;
 use glam::DVec2;
 
-/// What each foot bears, and where.
+/// Load and centre of pressure of each foot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Split {
     /// Share of the weight \[1\].
@@ -13,12 +13,12 @@ pub(super) struct Split {
     pub points: [DVec2; 2],
 }
 
-/// A centre of pressure that is missed by less is met \[m\].
+/// Tolerance of the centre of pressure \[m\].
 const MET_M: f64 = 5e-4;
 
 impl Split {
-    /// For a centre of pressure over the ground. As long as that can be, the weight is shared by where the centre lies between
-    /// the feet's resting points; towards the edges of the polygon the shares give way.
+    /// For a centre of pressure over the ground. If possible, the shares follow from the position between the feet's
+    /// resting points; towards the edges of the polygon they deviate.
     pub fn of(stance: &Stance, pressure: DVec2) -> Split {
         let feet = &stance.feet;
         match stance.stands {
@@ -39,7 +39,8 @@ impl Split {
         if missed(&first) < MET_M * MET_M {
             return first;
         }
-        // What is missed is a convex function of the share, and so is the little that is added for leaving the liked one.
+        // The error is a convex function of the share, and so is the small penalty for deviating from the preferred
+        // one.
         let cost = |right: f64| missed(&at(right)) + 1e-6 * (right - liked) * (right - liked);
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..24 {

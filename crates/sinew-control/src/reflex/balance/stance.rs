@@ -1,4 +1,4 @@
-//! What a character stands on, and how its centre of mass moves over that.
+//! The stance: which feet stand, and the motion of the centre of mass over them.
 
 use super::polygon::{Polygon, flat};
 use super::sole::{Footing, Sole};
@@ -8,26 +8,26 @@ use glam::{DVec2, DVec3};
 use sinew_body::humanoid::{LEGS, Node};
 use sinew_world::{CharacterId, Entity};
 
-/// A foot so much higher than the lower one is lifted, whatever the pose wants \[m\].
+/// Height above the lower foot at which a foot counts as lifted, whatever the pose wants \[m\].
 const LIFTED_M: f64 = 0.12;
 
-/// A foot that the pose wants so much higher than the other is not meant to stand \[m\].
+/// Wanted height above the other foot at which a foot is not meant to stand \[m\].
 const MEANT_LIFTED_M: f64 = 0.05;
 
 /// Time over which loads are smoothed \[s\].
 const LOAD_SECS: f64 = 0.015;
 
-/// Time over which a foot comes to be taken for one that stands \[s\].
+/// Smoothing time of the contact estimate \[s\].
 const BEARING_SECS: f64 = 0.1;
 
-/// What a character stands on in one step.
+/// The stance of a character in one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stance {
     pub feet: [Footing; 2],
-    /// Which of them stand.
+    /// Which feet stand.
     pub stands: [bool; 2],
     pub polygon: Polygon,
-    /// Where the weight rests in quiet standing.
+    /// Resting point of the weight in quiet standing.
     pub rest: DVec2,
     /// Height of the ground \[m\].
     pub ground_m: f64,
@@ -35,12 +35,12 @@ pub(super) struct Stance {
     pub height_m: f64,
     /// Centre of mass over the ground \[m\].
     pub centre: DVec2,
-    /// Where the centre of mass would come to rest over: c + v / ω \[m\].
+    /// The capture point, over which the centre of mass would come to rest: c + v / ω \[m\].
     pub capture: DVec2,
 }
 
 impl Stance {
-    /// `bearing` is how far each foot is taken for one that stands, 0 to 1.
+    /// `bearing` is the contact estimate of each foot, 0 to 1.
     pub fn of(sense: &Sense, feet: &[Footing; 2], bearing: &[f64; 2], ground_velocity: DVec2) -> Stance {
         let me = sense.character();
         let stands = bearing.map(|bearing| bearing > 0.5);
@@ -90,7 +90,7 @@ pub(super) fn follow_loads(sense: &Sense, load_n: &mut [f64; 2]) {
     }
 }
 
-/// Which feet stand: those that the pose wants on the ground, or that bear weight, and that are near it.
+/// Which feet stand: those that the pose wants on the ground, or that carry weight, and that are near the ground.
 pub(super) fn follow_bearing(
     sense: &Sense,
     soles: &[Sole; 2],
@@ -123,7 +123,7 @@ pub(super) fn lift(point: DVec2, height_m: f64) -> DVec3 {
     DVec3::new(point.x, height_m, point.y)
 }
 
-/// The nodes of a leg from the foot up, with what hangs from each.
+/// The nodes of a leg from the foot up, with the parts below each.
 pub(super) fn leg(side: usize) -> [Node; 3] {
     let (upper, lower, foot) = LEGS[side];
     [foot, lower, upper]

@@ -1,4 +1,4 @@
-//! Hips and trunk: upright when all is well, thrown after the fall when the feet alone cannot stop it.
+//! Hips and trunk: upright at rest, rotated in the direction of the fall when the ankles alone cannot stop it.
 
 use super::BalanceSettings;
 use super::flywheel::{FORESIGHT_SECS, Flywheel, Swing};
@@ -72,7 +72,7 @@ impl Trunk {
             self.inertia * omega * (omega * error.dot(axis) - 2.0 * settings.upright_damping * spin)
         };
 
-        // Forward and backward the hips turn on the legs.
+        // Forward and backward the hips rotate on the legs.
         let pitch_throw = throw.dot(left);
         let room = settings.trunk_lean[if pitch_throw > 0.0 { 0 } else { 1 }];
         let lean = (-error.dot(left) + FORESIGHT_SECS * hips.angular_velocity.dot(left)) * pitch_throw.signum();
@@ -91,7 +91,7 @@ impl Trunk {
         left * pitch + facing * roll
     }
 
-    /// Bends the chest. Returns the turn that would take it upright (world axes) \[rad\].
+    /// Bends the chest. Returns the rotation that would take it upright (world axes) \[rad\].
     pub fn drive(&self, sense: &Sense, wanted_up: DVec3, strength: f64, target: &mut Wanted) -> DVec3 {
         let me = sense.character();
         let hips = me.part(Node::Hips).rotation;
@@ -109,7 +109,7 @@ impl Trunk {
     }
 }
 
-/// The hips' up axis if the wanted pose stood on level feet.
+/// The hips' up axis of the wanted pose on level feet.
 pub(super) fn wanted_up(stance: &Stance, target: &Wanted) -> DVec3 {
     let mut up = DVec3::ZERO;
     for side in 0..2 {

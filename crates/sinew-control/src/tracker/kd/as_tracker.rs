@@ -1,4 +1,4 @@
-//! The tracker `kd` among the others.
+//! The tracker `kd` as a [`Tracker`](crate::tracker::Tracker).
 
 use super::KdTracker;
 use crate::Wanted;
@@ -6,7 +6,7 @@ use crate::tracker::{Honours, TakeOver, Tracker, TrackerKind, Wants};
 use sinew_body::humanoid::{Node, Pose};
 use sinew_world::{CharacterId, World};
 
-/// How long a body takes to come to what is wanted when the tracker begins in the middle of a run \[s\].
+/// Duration of the transition when the tracker starts in the middle of a run \[s\].
 const TAKE_OVER_SECS: f64 = 0.5;
 
 impl KdTracker {
@@ -31,7 +31,7 @@ impl Tracker for KdTracker {
         true
     }
 
-    /// At the world's start the body moves as the motion does that it is in; later it begins where and as it is.
+    /// At the world's start the body has the velocity of its motion; later it keeps its own state.
     fn take_over(&mut self, start: &TakeOver, world: &mut World, character: CharacterId) {
         if world.frame().step > 0 {
             self.begin_where_it_is(TAKE_OVER_SECS);
@@ -66,7 +66,7 @@ impl Tracker for KdTracker {
     }
 }
 
-/// The pose that led to one, by the way that goes on to the next.
+/// The pose before one, extrapolated from it and the next.
 fn led_to(now: &Pose, next: &Pose) -> Pose {
     let mut pose = *now;
     pose.hips_position += pose.hips_position - next.hips_position;

@@ -1,16 +1,16 @@
-//! A moving prop that carries a performer's whole stage along.
+//! A moving prop as carrier: the frame of the performer's motion moves with it.
 
 use glam::{DQuat, DVec3};
 use sinew_world::{PropId, World};
 
-/// What a prop has moved and turned since the character stepped on it.
+/// The displacement and rotation of a prop since the character stepped on it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Carrier {
     prop: PropId,
     start: (DVec3, DQuat),
 }
 
-/// Where things on a carrier are at an instant.
+/// The transform of a carrier at an instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carried {
     start: DVec3,
@@ -61,12 +61,12 @@ impl Carried {
         self.turn * direction
     }
 
-    /// Velocity of a point at a place of the world that moves on the carrier.
+    /// World velocity of a point that moves relative to the carrier.
     pub(super) fn velocity(&self, velocity: DVec3, at: DVec3) -> DVec3 {
         self.turn * velocity + self.velocity + self.spin.cross(at - self.centre)
     }
 
-    /// A velocity of the world as it is on the carrier: the inverse of [`Carried::velocity`].
+    /// A world velocity relative to the carrier: the inverse of [`Carried::velocity`].
     pub(super) fn without(&self, velocity: DVec3, at: DVec3) -> DVec3 {
         self.turn.conjugate() * (velocity - self.velocity - self.spin.cross(at - self.centre))
     }

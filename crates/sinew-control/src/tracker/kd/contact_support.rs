@@ -1,43 +1,45 @@
-//! Support that moves from the ground to something else.
+//! Contact support: the pins of a body fade with the load that contacts other than the ground carry.
 //!
-//! Nguyen et al. 2010, section 7: "we are currently unable to handle a case where the primary support of the character changes from the
-//! ground to another object [...] because our system assumes the ground is the primary support and distributes the kinematic
-//! corrective forces based on this assumption". Here what holds a body to its place fades by the share of its weight that something
-//! else bears, and comes back as the performer rises from it. What the pins let go then rests on that thing too: who sits down
-//! ends up borne by seat and ground alone, who puts a hand on a table gives it a little more of the own weight.
+//! Nguyen et al. 2010, section 7: "we are currently unable to handle a case where the primary support of the character
+//! changes from the ground to another object [...] because our system assumes the ground is the primary support and
+//! distributes the kinematic corrective forces based on this assumption". Here the pins fade by the share of the weight
+//! that other contacts carry, and return as the performer rises. The load that the pins release then rests on those
+//! contacts too: a sitting body ends up supported by seat and ground alone, and a hand on a table presses a little
+//! harder.
 
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_world::{CharacterId, Entity, PropId, World};
 
-/// Share of the weight that is all that a seat can bear: the legs stand on the ground \[1\].
+/// Maximum share of the weight on a seat: the legs stand on the ground \[1\].
 const ALL_OF_IT: f64 = 0.55;
 
-/// What is left of the pins of a body that is wholly borne \[1\].
-const LEAST: f64 = 0.02;
+/// Remaining factor on the pins of a fully supported body \[1\].
+const MIN_FACTOR: f64 = 0.02;
 
-/// How fast a force is felt, and how fast the pins answer \[s\].
+/// Smoothing time of the force, and response time of the pins \[s\].
 const FELT_SECS: f64 = 0.05;
 const ANSWER_SECS: f64 = 0.12;
 
-/// Hips that rise by this within [`RISE_SECS`] are on the way up, and held in full again \[m\].
+/// Rise of the hips within [`RISE_SECS`] at which the performer stands up and the pins return in full \[m\].
 const RISE_M: [f64; 2] = [0.01, 0.03];
 const RISE_SECS: f64 = 0.5;
 
-/// How far something other than the ground bears a body.
+/// The contact support of a body.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactSupport {
-    /// Upward force of what is no ground, smoothed \[N\].
+    /// Upward force of contacts other than the ground, smoothed \[N\].
     force_n: f64,
     share: f64,
-    /// Where the wanted hips were low not long ago \[m\].
+    /// Recent minimum height of the wanted hips \[m\].
     low_m: Option<f64>,
 }
 
 sinew_snapshot::snapshot!(ContactSupport { force_n, share, low_m });
 
 impl ContactSupport {
-    /// Feels what bore the body in the world's last step. `ground`: a prop that counts as such; `hips_m`: height of the wanted hips.
+    /// Updates with the contacts of the world's last step. `ground`: a prop that counts as ground; `hips_m`: height of
+    /// the wanted hips.
     pub(super) fn feel(&mut self, world: &World, character: CharacterId, ground: Option<PropId>, hips_m: f64) {
         let step_secs = world.settings().step_secs();
         let mass_kg = world.body(character).map_or(80.0, |body| body.mass_kg());
@@ -52,18 +54,18 @@ impl ContactSupport {
         self.share += (wanted - self.share) * (step_secs / ANSWER_SECS).min(1.0);
     }
 
-    /// Feels nothing any more.
+    /// Resets to no contact support.
     pub(super) fn forget(&mut self) {
         *self = ContactSupport::default();
     }
 
     /// Factor on the weight of all pins.
     pub(super) fn factor(&self) -> f64 {
-        1.0 - self.share * (1.0 - LEAST)
+        1.0 - self.share * (1.0 - MIN_FACTOR)
     }
 }
 
-/// Upward force on trunk, arms and thighs from all that is neither ground nor held \[N\].
+/// Upward contact force on trunk, arms and thighs from bodies that are neither ground nor held \[N\].
 fn borne_n(world: &World, character: CharacterId, ground: Option<PropId>) -> f64 {
     let is_ground = |entity: Entity| entity == Entity::Floor || ground.is_some_and(|prop| entity == Entity::Prop(prop));
     let holds = |entity: Entity| world.held().any(|held| held.character == character && held.object == entity);
@@ -86,7 +88,7 @@ fn borne_n(world: &World, character: CharacterId, ground: Option<PropId>) -> f64
     if force_n.is_finite() { force_n } else { 0.0 }
 }
 
-/// Parts that stand on things.
+/// Parts whose contacts do not count, because they stand on things.
 fn stands(node: Node) -> bool {
     matches!(node, Node::LeftLowerLeg | Node::RightLowerLeg | Node::LeftFoot | Node::RightFoot)
 }

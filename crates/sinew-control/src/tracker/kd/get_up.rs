@@ -1,18 +1,19 @@
-//! From lying on the ground to where the performer is: as people get up, by way of a crouch, where they lie; then after the performer.
+//! Get-up: from lying on the ground through a crouch to standing, at the same place; then the approach to the
+//! performer.
 
 use super::inertial_blend::sole_m;
 use super::ramp::smooth;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 
-/// A way up. First the body gathers its feet under itself, then it stands up into the wanted pose and begins to go along with it; what
-/// the performer is ahead by then, it makes up for.
+/// A get-up motion. First the body gathers its feet under itself, then it stands up into the wanted pose and starts to
+/// move with it; then it closes the distance to the performer.
 #[derive(Clone, Debug, Default)]
 pub(super) struct GetUp {
     lying: Pose,
     /// Against the parents; the hips' in the world.
     crouch: [DQuat; Node::COUNT],
-    /// Where the hips are over the ground, and how fast they go there at first \[m, m/s\].
+    /// Position of the hips over the ground, and their initial velocity \[m, m/s\].
     place: DVec3,
     drift: DVec3,
     /// The wanted hips a step ago.
@@ -25,48 +26,49 @@ pub(super) struct GetUp {
     over_secs: f64,
 }
 
-/// Somebody of 1.7 m takes so long to get up \[s\].
+/// Duration for a body of 1.7 m \[s\].
 const UP_SECS: f64 = 2.2;
 
-/// Shares of that in which the legs are folded, after which the body turns upright, in which it has its feet under itself, and after
-/// which it stands up \[1\].
+/// Shares of that time: until the legs are folded, until the body begins to turn upright, until the feet are under the
+/// body, until it begins to stand up \[1\].
 const FOLDED: f64 = 0.4;
 const TURNS: f64 = 0.1;
 const GATHERED: f64 = 0.6;
 const STANDS_UP: f64 = 0.4;
 
-/// Gathered feet are so far above the floor, and come down flat as the body stands up \[m\]: dragged along it their toes fold under.
+/// Height of gathered feet above the floor; they come down flat as the body stands up \[m\]: dragged along it their
+/// toes would fold under.
 const CLEAR_M: f64 = 0.05;
 
-/// The same of feet that go after the performer: they would dig their heels in \[m\].
+/// The same for feet during the approach to the performer, whose heels would dig in \[m\].
 const HOVERS_M: f64 = 0.02;
 
-/// How fast it goes after a performer who went on, on top of the performer's own speed, and within which time it arrives \[m/s, s\].
+/// Approach speed in addition to the performer's own speed, and the time of arrival \[m/s, s\].
 const AFTER_M_S: f64 = 0.8;
 const ARRIVES_SECS: f64 = 0.5;
 
-/// The performer is reached \[m\].
+/// Distance at which the approach ends \[m\].
 const REACHED_M: f64 = 1e-5;
 
-/// A body that is moving when it is picked up comes to rest within this time \[s\].
+/// Time in which the initial velocity decays \[s\].
 const DRIFT_SECS: f64 = 0.4;
 
-/// Hips whose upward axis is no more upright than this lie \[1\].
+/// Maximum vertical component of the up axis of lying hips \[1\].
 const LIES: f64 = 0.5;
 
-/// A body is lifted off the floor this smoothly \[s\].
+/// Smoothing time of the lift off the floor \[s\].
 const LIFT_SECS: f64 = 0.03;
 
 sinew_snapshot::snapshot!(GetUp { lying, crouch, place, drift, before, sole_m, lift_m, aside_m, gone_secs, over_secs });
 
 impl GetUp {
-    /// Whether a pose is one to get up from: hips low, and turned from upright.
+    /// Whether a pose needs a get-up: hips low and not upright.
     pub(super) fn is_from(body: &Body, pose: &Pose) -> bool {
         let low = pose.hips_position.y - sole_m(body, pose).min(pose.hips_position.y) < 0.3 * body.stature_m();
         low && (pose.world[0] * DVec3::Y).y < LIES
     }
 
-    /// From a pose to a wanted one, with the velocity of the hips \[m/s\]; over at least this time.
+    /// A get-up from a pose to a wanted one, with the velocity of the hips \[m/s\]; lasts at least this time.
     pub(super) fn between(body: &Body, from: &Pose, to: &Pose, velocity: DVec3, least_secs: f64) -> GetUp {
         let up_secs = UP_SECS * (body.stature_m() / 1.7).sqrt();
         GetUp {
@@ -83,7 +85,7 @@ impl GetUp {
         }
     }
 
-    /// A step goes by; the pose at its end.
+    /// Advances by a step; returns the pose at its end.
     pub(super) fn step(&mut self, body: &Body, pose: &Pose, step_secs: f64) -> Pose {
         self.gone_secs += step_secs;
         let share = self.gone_secs / self.over_secs;
@@ -106,15 +108,15 @@ impl GetUp {
         let low_m = lying_m + (crouch_m - lying_m) * gathered;
         let height_m = low_m + (pose.hips_position.y - low_m) * stands;
         let mut posed = Pose::from_locals(self.place.with_y(height_m), &locals);
-        // Which point of the soles is lowest changes at once; how far the body is lifted does not.
+        // The lowest point of the soles may jump; the lift is smoothed.
         let lift_m = (floor_m - sole_m(body, &posed)).max(0.0);
         self.lift_m += (lift_m - self.lift_m) * (step_secs / LIFT_SECS).min(1.0);
         posed.hips_position.y += self.lift_m + (CLEAR_M * folded * (1.0 - stands)).max(HOVERS_M * hurry);
         posed
     }
 
-    /// Over the ground: along with the performer as far as it stands, and after the performer. How fast that is, of
-    /// [`AFTER_M_S`] \[1\].
+    /// Motion over the ground: with the performer by its standing progress, plus the approach. Returns the approach
+    /// speed \[1 of [`AFTER_M_S`]\].
     fn go(&mut self, pose: &Pose, drift: DVec3, stands: f64, step_secs: f64) -> f64 {
         let along = pose.hips_position - self.before;
         self.before = pose.hips_position;
@@ -126,7 +128,7 @@ impl GetUp {
         speed / AFTER_M_S
     }
 
-    /// How far it stands, 0 to 1.
+    /// Progress of standing up, 0 to 1.
     pub(super) fn progress(&self) -> f64 {
         smooth((self.gone_secs / self.over_secs - STANDS_UP) / (1.0 - STANDS_UP))
     }
@@ -136,7 +138,7 @@ impl GetUp {
     }
 }
 
-/// Feet under the hips, the trunk ahead of them, facing as a pose does.
+/// A crouch with the heading of a pose: feet under the hips, the trunk ahead of them.
 fn crouch(to: &Pose) -> [DQuat; Node::COUNT] {
     let ahead = to.world[0] * DVec3::Z;
     let facing = DQuat::from_rotation_y(libm::atan2(ahead.x, ahead.z));

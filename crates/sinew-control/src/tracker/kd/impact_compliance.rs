@@ -1,30 +1,30 @@
-//! A trunk that gives way to hits, and not to loads.
+//! Impact compliance of the trunk: it yields to impacts, not to slow loads.
 //!
-//! The paper's gains let a hit of 20 N s on the chest move it by little more than a centimetre: pins and the spring of the waist hold
-//! forty kilograms that move together. People brace themselves against what pulls and leans on them, and give way to what hits
-//! them. What tells the two apart here is the impulse of the last tenths of a second, less what has pushed for longer.
+//! The paper's gains let a hit of 20 N s on the chest move it by little more than a centimetre: pins and the spring of
+//! the waist hold forty kilograms that move together. People brace themselves against slow loads and yield to impacts.
+//! Here the impulse of the last tenths of a second, minus longer-lasting forces, distinguishes the two.
 
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_world::{CharacterId, Entity, Frame, World};
 
-/// Impulse at which the trunk begins to give way, and at which it gives way in full, for a body of 80 kg \[N s\].
+/// Impulse at which the trunk begins to yield, and at which it yields in full, for a body of 80 kg \[N s\].
 const FROM_TO_N_S: [f64; 2] = [3.0, 6.0];
 
-/// An impulse is forgotten within this time, and a force is no longer a hit but a load \[s\].
+/// Decay time of an impulse, after which a force counts as a load \[s\].
 const FORGOTTEN_SECS: f64 = 0.2;
 const LOAD_SECS: f64 = 0.3;
 
-/// What is left of the stiffness of a trunk that gives way in full \[1\].
-const LEAST: f64 = 0.02;
+/// Remaining stiffness of a fully yielding trunk \[1\].
+const MIN_STIFFNESS: f64 = 0.02;
 
-/// The same of the hips' pin: legs hold the rest.
+/// The same for the hips' pin; legs keep theirs.
 const MIN_OF_HIPS: f64 = 0.2;
 
-/// How fast it gives way, and comes back \[s\].
+/// Time constants of yielding and of recovery \[s\].
 const TIMES_SECS: [f64; 2] = [0.01, 0.3];
 
-/// How far the trunk gives way now.
+/// The present compliance of the trunk.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ImpactCompliance {
     load: DVec3,
@@ -35,7 +35,7 @@ pub(super) struct ImpactCompliance {
 sinew_snapshot::snapshot!(ImpactCompliance { load, impulse, share });
 
 impl ImpactCompliance {
-    /// Feels what pushed and touched the trunk in the world's last step.
+    /// Updates with pushes and contacts on the trunk in the world's last step.
     pub(super) fn feel(&mut self, world: &World, character: CharacterId, mass_kg: f64, step_secs: f64) {
         let force = force_on_trunk(world, character, step_secs);
         let force = if force.is_finite() { force } else { DVec3::ZERO };
@@ -48,7 +48,7 @@ impl ImpactCompliance {
         self.share += (felt - self.share) * (step_secs / secs).min(1.0);
     }
 
-    /// Feels nothing any more.
+    /// Resets to full stiffness.
     pub(super) fn forget(&mut self) {
         *self = ImpactCompliance::default();
     }
@@ -58,10 +58,10 @@ impl ImpactCompliance {
         let left = |least: f64| 1.0 - self.share * (1.0 - least);
         let pin = match node {
             Node::Hips => left(MIN_OF_HIPS),
-            node if is_above_hips(node) => left(LEAST),
+            node if is_above_hips(node) => left(MIN_STIFFNESS),
             _ => 1.0,
         };
-        (pin, if node == Node::Chest { left(LEAST) } else { 1.0 })
+        (pin, if node == Node::Chest { left(MIN_STIFFNESS) } else { 1.0 })
     }
 }
 
@@ -89,7 +89,7 @@ fn force_on_trunk(world: &World, character: CharacterId, step_secs: f64) -> DVec
     pushes + impulse / step_secs
 }
 
-/// Parts that a hit moves together with the trunk.
+/// Parts that an impact moves together with the trunk.
 fn is_trunk(node: Node) -> bool {
     is_above_hips(node) && !matches!(node, Node::LeftLowerArm | Node::RightLowerArm | Node::LeftHand | Node::RightHand)
 }

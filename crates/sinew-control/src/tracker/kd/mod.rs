@@ -1,13 +1,13 @@
 //! A performer's motion as forces on a body (Nguyen et al. 2010, section 4).
 //!
-//! Two signals act on one simulated body. The kinematic one holds every part to its place in the world,
-//! u_K = k_p (p̂ − p) − d_p ṗ (EQ1); the dynamic one holds every joint to its angles, u_D = k_q I (q̂ − q) − d_q q̇ (EQ2), with I the
-//! inertia of what hangs from the joint. Each has a weight for each part, and the weights change over time.
+//! Two signals act on one simulated body. The kinematic one, the pin, holds every part to its position in the world,
+//! u_K = k_p (p̂ − p) − d_p ṗ (EQ1); the dynamic one holds every joint to its angles, u_D = k_q I (q̂ − q) − d_q q̇
+//! (EQ2), with I the outboard inertia of the joint. Each has a weight for each part, and the weights change over time.
 //!
-//! Read as printed the two do not hold: see [`KdGains`] for what the numbers mean, [`KdDamping`] for what is damped, and
-//! [`Pin`] for how they are integrated. On top goes what the wanted motion itself needs: each part's m (â − g) in proportion to its
-//! pin's weight, and the torques I α̂ + ω̂ × I ω̂ of all that hangs from a joint. So an undisturbed body follows without lag,
-//! and a disturbed one is no stiffer than its gains.
+//! As printed the two do not suffice: see [`KdGains`] for the meaning of the numbers, [`KdDamping`] for the reference
+//! of damping, and [`Pin`] for the integration. Feed-forward adds the forces that the wanted motion itself requires:
+//! each part's m (â − g) in proportion to its pin's weight, and the torques I α̂ + ω̂ × I ω̂ of all parts below a
+//! joint. So an undisturbed body follows without lag, and a disturbed one is no stiffer than its gains.
 
 mod as_tracker;
 mod carrier;
@@ -39,11 +39,11 @@ use transition::Transition;
 /// Follows wanted poses with forces on every part and torques in every joint.
 ///
 /// Each step of physics: [`physics_step`](KdTracker::physics_step), then [`World::step`]. Where
-/// [`wants_pose`](KdTracker::wants_pose) says so, that is at the start of each motion frame, hand it the pose of the
+/// [`wants_pose`](KdTracker::wants_pose) says so, that is at the start of each motion frame, pass the pose of the
 /// frame's end first.
 ///
-/// Nothing that it is told makes the body jump: weights and gains fade, a performance that begins elsewhere (another source, a
-/// stream that returns, kinematic forces that were off) is met on a way that begins where the body is.
+/// No input makes the body jump: weights and gains fade, and a discontinuity of the wanted motion (another source, a
+/// stream that returns, pins that were off) is bridged by a transition from the body's present state.
 ///
 /// ```
 /// use glam::DVec3;
@@ -69,15 +69,15 @@ use transition::Transition;
 /// ```
 #[derive(Clone, Debug)]
 pub struct KdTracker {
-    /// A factor on each joint's stiffness on top, its root on the damping \[1\]; by [`Node::index`].
+    /// An additional factor on each joint's stiffness, its root on the damping \[1\]; by [`Node::index`].
     pub joint_gain: [f64; Node::COUNT],
-    /// A torque on each part against its parent on top, world axes \[N m\]; by [`Node::index`].
+    /// An additional torque on each part relative to its parent, world axes \[N m\]; by [`Node::index`].
     pub torque: [DVec3; Node::COUNT],
     settings: KdSettings,
     gains: [Ramp; 4],
-    /// 1 when pins carry weight: 0 when k_p is nothing.
+    /// 1 if pins carry weight, 0 if k_p is 0.
     carries: Ramp,
-    /// On all pins: the switch of the kinematic forces.
+    /// Factor on all pins: the switch of the kinematic forces.
     pins: Ramp,
     pin_weights: [Ramp; Node::COUNT],
     joint_weights: [Ramp; Node::COUNT],
@@ -85,7 +85,7 @@ pub struct KdTracker {
     clock: Clock,
     interpolator: PoseInterpolator,
     wanted: Pose,
-    /// The wanted pose of the last step, before and after the slide.
+    /// The wanted pose of the last step, before and after the transition.
     raw: Pose,
     posed: Pose,
     raw_velocity: DVec3,
@@ -110,7 +110,7 @@ sinew_snapshot::snapshot!(enum Start { 0: No, 1: FromBody(over_secs) });
 enum Start {
     /// Goes on.
     No,
-    /// The body is somewhere: its way to the wanted pose takes this long \[s\].
+    /// A transition from the body's present pose, of this duration \[s\].
     FromBody(f64),
 }
 
@@ -120,14 +120,14 @@ const JUMP_M: f64 = 0.25;
 /// Joints that turn by more than this within a motion frame have jumped \[rad\]: 72 rad/s at 60 Hz.
 const JUMP_RAD: f64 = 1.2;
 
-/// How long a jump is slid over \[s\].
+/// Duration of the inertial blend over a jump \[s\].
 const JUMP_SECS: f64 = 0.5;
 
-/// Largest force of a pin: of a part of a leg, and of another one \[weights of the body\]; times [`KdSettings::strength`]. A foot is
-/// held so firmly that it would lift whatever it is under.
+/// Maximum force of a pin: of a part of a leg, and of another one \[body weights\]; times [`KdSettings::strength`]. A
+/// stronger foot would lift any object above it.
 const MAX_WEIGHTS: [f64; 2] = [1.5, 4.0];
 
-/// Friction of a joint that is not held, relative to the inertia of what hangs from it \[1/s\].
+/// Friction of a joint without a spring, relative to its outboard inertia \[1/s\].
 const LIMP_DAMPING: f64 = 1.0;
 
 impl KdTracker {
@@ -164,7 +164,8 @@ impl KdTracker {
         }
     }
 
-    /// Goes on from a motion that went from `before` to `now`, one motion frame apart, with steps of physics of this length \[s\].
+    /// Continues from a motion that went from `before` to `now`, one motion frame apart, with steps of physics of this
+    /// length \[s\].
     pub fn restart(&mut self, body: &Body, before: &Pose, now: &Pose, step_secs: f64) {
         self.interpolator = PoseInterpolator::rest(before);
         self.interpolator.next(now);
@@ -177,7 +178,7 @@ impl KdTracker {
         (self.way, self.start) = (None, Start::No);
     }
 
-    /// Begins with the body where and as fast as it is, and takes this long to come to what is wanted \[s\].
+    /// Starts with the body's present pose and velocity, with a transition of this duration to the wanted motion \[s\].
     pub fn begin_where_it_is(&mut self, over_secs: f64) {
         self.start = Start::FromBody(over_secs.max(0.0));
     }
@@ -187,20 +188,20 @@ impl KdTracker {
         self.clock.is_due()
     }
 
-    /// The pose for the end of the motion frame that begins. One that is not finite is passed over.
+    /// Sets the pose for the end of the motion frame that begins. One that is not finite is ignored.
     pub fn wanted(&mut self, pose: &Pose) {
         if pose.is_finite() {
             self.wanted = *pose;
         }
     }
 
-    /// The whole wanted motion is carried along by a prop from now on, as by a car's floor, or by the ground again. Where physics moves
-    /// the prop, what the pins give the body they take from it.
+    /// Sets the prop that carries the wanted motion along, such as a car's floor, or the ground. A dynamic prop is the
+    /// reaction body of the pins.
     pub fn stand_on(&mut self, world: &World, prop: Option<PropId>) {
         self.carrier = prop.and_then(|prop| Carrier::new(world, prop));
     }
 
-    /// Other gains, reached smoothly within a time \[s\].
+    /// Sets the gains, reached smoothly within a time \[s\].
     pub fn set_gains(&mut self, gains: KdGains, fade_secs: f64) {
         self.before_pins(carries(&gains) * self.pins.end(), fade_secs);
         for (ramp, to) in self.gains.iter_mut().zip([gains.k_p, gains.d_p, gains.k_q, gains.d_q]) {
@@ -210,32 +211,32 @@ impl KdTracker {
         self.settings.gains = gains;
     }
 
-    /// The gains that it goes to.
+    /// The target gains.
     pub fn gains(&self) -> KdGains {
         self.settings.gains
     }
 
-    /// What is damped from now on.
+    /// Sets the reference of damping.
     pub fn set_damping(&mut self, damping: KdDamping) {
         self.settings.damping = damping;
     }
 
-    /// Whether the wanted motion's own forces are given on top.
+    /// Switches feed-forward.
     pub fn set_feed_forward(&mut self, on: bool) {
         self.settings.feed_forward = on;
     }
 
-    /// Whether what holds the body fades by as much of its weight as something else than the ground bears.
+    /// Switches contact support.
     pub fn set_leans(&mut self, on: bool) {
         self.settings.leans = on;
     }
 
-    /// Whether the trunk gives way to hits.
+    /// Switches impact compliance of the trunk.
     pub fn set_yields(&mut self, on: bool) {
         self.settings.yields = on;
     }
 
-    /// Other weights of a part, reached smoothly within a time \[s\]; `None` leaves one as it is.
+    /// Sets the weights of a part, reached smoothly within a time \[s\]; `None` leaves one unchanged.
     pub fn set_weight(&mut self, node: Node, pin: Option<f64>, joint: Option<f64>, fade_secs: f64) {
         let weight = &mut self.settings.weights[node.index()];
         if let Some(pin) = pin {
@@ -250,24 +251,24 @@ impl KdTracker {
         }
     }
 
-    /// The weights that a part goes to.
+    /// The target weights of a part.
     pub fn weight(&self, node: Node) -> KdWeight {
         self.settings.weights[node.index()]
     }
 
-    /// Switches the kinematic forces off (free fall) or on again, smoothly within a time \[s\]. On again, the body is wanted where it
-    /// is, and from there where the performer is.
+    /// Switches the kinematic forces off (free fall) or on again, smoothly within a time \[s\]. When they come on
+    /// again, the transition starts at the body's present pose.
     pub fn set_pins(&mut self, on: bool, fade_secs: f64) {
         self.before_pins(if on { self.carries.end() } else { 0.0 }, fade_secs);
         self.pins.aim(if on { 1.0 } else { 0.0 }, fade_secs);
     }
 
-    /// Whether the kinematic forces are on, or come on.
+    /// Whether the kinematic forces are on, or are being switched on.
     pub fn has_pins(&self) -> bool {
         self.pins.end() > 0.0
     }
 
-    /// Pins that come on after none held anything find the body somewhere.
+    /// Pins that come on after all were off start a transition.
     fn before_pins(&mut self, will_hold: f64, fade_secs: f64) {
         let common = self.pins.value() * self.carries.value();
         let held = self.pin_weights.iter().any(|weight| weight.value() > 0.0);
@@ -331,7 +332,7 @@ impl KdTracker {
         self.interpolator.next(&pose);
     }
 
-    /// The body is wanted where it is now, as it moves now.
+    /// The transition starts with the body's present pose and velocity.
     fn slide_from_body(&mut self, world: &World, character: CharacterId, over_secs: f64, step_secs: f64) {
         let Some(frame) = world.frame().character(character) else { return };
         let (mut pose, hips) = (frame.pose(), frame.part(Node::Hips));
@@ -344,13 +345,14 @@ impl KdTracker {
         let Some(body) = world.body(character) else { return };
         self.way = Some(Transition::from_body(body, [&pose, &self.raw], [velocity, self.raw_velocity], over_secs));
         self.now = Instant::of(body, &pose);
-        // It was where its velocity says: no force is fed forward to bring it up to the speed that it has.
+        // Its previous pose is extrapolated from its velocity, so that feed-forward does not accelerate it to the speed
+        // that it has.
         let mut before = pose;
         before.hips_position -= velocity * step_secs;
         self.before = Instant::of(body, &before);
     }
 
-    /// Whether something hit the trunk, and whether something else than the ground bears the body.
+    /// Updates impact compliance and contact support.
     fn feel(&mut self, world: &World, character: CharacterId, step_secs: f64) {
         let is_held = self.pins.value() * self.carries.value() >= 1.0;
         match world.body(character).filter(|_| self.settings.yields && is_held) {
@@ -365,7 +367,7 @@ impl KdTracker {
         }
     }
 
-    /// `progress` of the way: legs are firmer than the rest when they stand, not while they come there.
+    /// `progress` of the transition: legs are stiffer than the rest when they stand, not during it.
     fn hold(&self, world: &mut World, character: CharacterId, next: &Instant, progress: f64, step_secs: f64) {
         let Some(outboard) = world.outboard_inertias(character).copied() else { return };
         let carried = self.carrier.and_then(|carrier| carrier.now(world));
@@ -374,7 +376,7 @@ impl KdTracker {
         let is_relative = self.settings.damping == KdDamping::Relative;
         let mut spins = [DVec3::ZERO; Node::COUNT];
         let mut torques = [DVec3::ZERO; Node::COUNT];
-        // What a part's turn needs, handed on to its parent: children come after their parents.
+        // The torque that a part's rotation requires, passed on to its parent: children come after their parents.
         for node in Node::ALL.into_iter().rev() {
             let at = node.index();
             let (back, on) = (self.before.turn(&self.now, at), self.now.turn(next, at));
@@ -452,12 +454,12 @@ impl KdTracker {
         }
     }
 
-    /// The pose that the body is held to at the end of the last step, before a carrier moves it.
+    /// The target pose at the end of the last step, before a carrier moves it.
     pub fn pose(&self) -> &Pose {
         &self.posed
     }
 
-    /// Gives the body the velocities of the wanted motion, as if it had followed it all along: for a body that begins in it.
+    /// Gives the body the velocities of the wanted motion, for a body that starts in it.
     pub fn launch(&self, world: &mut World, character: CharacterId) {
         let step_secs = world.settings().step_secs();
         let velocities: [(DVec3, DVec3); Node::COUNT] = std::array::from_fn(|at| {
@@ -476,7 +478,7 @@ fn carries(gains: &KdGains) -> f64 {
     if gains.k_p > 0.0 { 1.0 } else { 0.0 }
 }
 
-/// Whether a wanted pose cannot be the motion's next one.
+/// Whether a wanted pose is discontinuous with the motion.
 fn has_jumped(before: &Pose, after: &Pose) -> bool {
     let turn = |node: Node| log((before.local(node).conjugate() * after.local(node)).normalize()).length();
     (after.hips_position - before.hips_position).length() > JUMP_M

@@ -1,6 +1,6 @@
 //! Numbers that change smoothly.
 
-/// A number on its way from one value to another, smoothly at both ends.
+/// A smooth transition of a number, with zero slope at both ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ramp {
     from: f64,
@@ -23,7 +23,7 @@ impl Ramp {
         Ramp { from: value, to: value, gone_secs: 0.0, over_secs: 0.0 }
     }
 
-    /// Goes to a value within a time from now; 0 is at once.
+    /// Starts a transition to a value within a time from now; 0 sets it at once.
     pub(super) fn aim(&mut self, to: f64, over_secs: f64) {
         *self = Ramp { from: self.value(), to, gone_secs: 0.0, over_secs };
     }
@@ -39,7 +39,7 @@ impl Ramp {
         self.from + (self.to - self.from) * smooth(self.gone_secs / self.over_secs)
     }
 
-    /// Where it goes.
+    /// The target value.
     pub(super) fn end(&self) -> f64 {
         self.to
     }

@@ -1,4 +1,5 @@
-//! Parts of a body that pass through each other, because the performer's own do not touch where the body's shapes meet.
+//! Self-collision filter: pairs of parts that the performer brings close pass through each other, because the body's
+//! shapes are wider than the performer's.
 //!
 //! A performer's feet pass within a finger's breadth and arms lie against ribs; the shapes of a simulated body are wider in
 //! places. A pair that comes that near in the wanted pose does not collide, until both poses have it apart again.
@@ -8,10 +9,10 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node};
 use sinew_world::{CharacterFrame, Form, never_collide, part_solid};
 
-/// Pairs that are nearer than this in the wanted pose pass \[m\]; captures and skeletons are no more exact.
+/// Distance in the wanted pose below which a pair is filtered \[m\]: the accuracy of captures and skeletons.
 const NEAR_M: f64 = 0.015;
 
-/// Pairs that are farther apart than this in the wanted pose collide again, when they do not overlap in the body \[m\].
+/// Distance in the wanted pose above which a pair collides again, if it does not overlap in the body \[m\].
 const APART_M: f64 = 0.03;
 
 /// A capsule in a part's frame.
@@ -22,7 +23,7 @@ struct Capsule {
     radius_m: f64,
 }
 
-/// Which pairs pass now.
+/// The pairs filtered now.
 #[derive(Clone, Debug)]
 pub(super) struct SelfCollision {
     capsules: [Capsule; Node::COUNT],
@@ -48,7 +49,7 @@ impl SelfCollision {
         SelfCollision { capsules: Node::ALL.map(|node| capsule(body, node)), pairs, masks: [0; Node::COUNT] }
     }
 
-    /// Looks at a wanted pose and at the body; the masks of all parts.
+    /// Updates with a wanted pose and the body; returns the masks of all parts.
     pub(super) fn look(&mut self, wanted: &Instant, body: &CharacterFrame) -> [u32; Node::COUNT] {
         for &(one, other) in &self.pairs {
             let passes = self.masks[one] & 1 << other != 0;
@@ -68,7 +69,7 @@ impl SelfCollision {
         let (a, b) = (self.capsules[one].at(place(one)), self.capsules[other].at(place(other)));
         let reach = near_m + self.capsules[one].radius_m + self.capsules[other].radius_m;
         let span = (a.0 - a.1).length() + (b.0 - b.1).length();
-        // Twice the distance of the middles against twice what both reach.
+        // Bounding spheres first: twice the distance of the centres against twice the sum of the radii.
         (a.0 + a.1 - b.0 - b.1).length() < 2.0 * reach + span && distance(a, b) < reach
     }
 }

@@ -8,11 +8,11 @@ use sinew_body::humanoid::Node;
 /// They mean per unit of mass and of inertia: read as N/m, 160 lets a trunk sag by 1.5 m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KdGains {
-    /// Stiffness that holds a part to its place, per unit of its mass \[1/s²\]; times [`KdGains::multiple`].
+    /// Stiffness of a part's pin, per unit of its mass \[1/s²\]; times [`KdGains::multiple`].
     pub k_p: f64,
     /// Its damping, per unit of mass \[1/s\]; times the root of [`KdGains::multiple`], so that the damping ratio is the same everywhere.
     pub d_p: f64,
-    /// Stiffness of a joint, per unit of the inertia of what hangs from it \[1/s²\].
+    /// Stiffness of a joint, per unit of its outboard inertia \[1/s²\].
     pub k_q: f64,
     /// Its damping, per unit of inertia \[1/s\].
     pub d_q: f64,
@@ -21,8 +21,8 @@ pub struct KdGains {
 sinew_snapshot::snapshot!(KdGains { k_p, d_p, k_q, d_q });
 
 impl KdGains {
-    /// How much firmer the legs are held than the rest: the ground is what a body's strength comes from
-    /// (Nguyen et al. 2010, section 4.3).
+    /// Factor on the gains of the legs: the ground is what a body's strength comes from (Nguyen et al. 2010, section
+    /// 4.3).
     pub const fn multiple(node: Node) -> f64 {
         match node {
             Node::LeftFoot | Node::RightFoot => 125.0,
@@ -40,7 +40,7 @@ pub enum KdPreset {
     /// 160, 25, 450, 10.
     #[default]
     Default,
-    /// 0, 0, 200, 2: nothing holds it to its place.
+    /// 0, 0, 200, 2: without pins.
     Balloon,
     /// 200, 25, 450, 10.
     Stapler,
@@ -79,18 +79,18 @@ impl KdPreset {
     }
 }
 
-/// What velocity is damped.
+/// The reference of the damped velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum KdDamping {
-    /// Against the performer's: what moves with the performer is not slowed.
+    /// Relative to the performer: motion with the performer is not damped.
     #[default]
     Relative,
-    /// Against the ground, as EQ1 and EQ2 are printed: everything lags.
+    /// Relative to the ground, as EQ1 and EQ2 are printed: everything lags.
     Absolute,
 }
 
-/// How far a part is held to its place in the world, and its joint to its angles: 1 as the gains say, 0 not at all.
+/// Weights of a part's pin and of its joint spring: 1 full, 0 off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KdWeight {
     /// Factor on k_p, 0 to 100; its root on d_p. Up to 1 it is also the share of the part's weight that is carried.
@@ -103,25 +103,28 @@ sinew_snapshot::snapshot!(enum KdDamping { 0: Relative, 1: Absolute });
 sinew_snapshot::snapshot!(KdWeight { pin, joint });
 
 impl KdWeight {
-    /// As the gains say.
+    /// Full weights.
     pub const FULL: KdWeight = KdWeight { pin: 1.0, joint: 1.0 };
 }
 
-/// How a body follows a performer.
+/// Settings of the tracker `kd`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KdSettings {
     /// Stiffness and damping.
     pub gains: KdGains,
     /// What is damped.
     pub damping: KdDamping,
-    /// The forces that the wanted motion itself needs are given on top, from its accelerations. Without them the body lags.
+    /// Feed-forward: adds the forces that the wanted motion itself requires, from its accelerations. Without it the
+    /// body lags.
     pub feed_forward: bool,
-    /// The trunk gives way to hits (contacts and pushes), which the gains alone would hardly let it; loads are held as ever.
+    /// Impact compliance: the trunk yields to impacts (contacts and pushes), which the gains alone would hardly allow;
+    /// slow loads meet full stiffness.
     pub yields: bool,
-    /// What holds the body to its place fades by as much of its weight as something else than the ground bears: a box that it sits on,
-    /// a table that it leans on.
+    /// Contact support: pins fade by the share of the weight that contacts other than the ground carry: a box that it
+    /// sits on, a table that it leans on.
     pub leans: bool,
-    /// Factor on the largest force of a pin, 0 to 100: 1 is one and a half weights of the body for a part of a leg, four for another.
+    /// Factor on the maximum force of a pin, 0 to 100: 1 is one and a half body weights for a part of a leg, four for
+    /// another.
     pub strength: f64,
     /// By [`Node::index`].
     pub weights: [KdWeight; Node::COUNT],
@@ -130,7 +133,7 @@ pub struct KdSettings {
 sinew_snapshot::snapshot!(KdSettings { gains, damping, feed_forward, yields, leans, strength, weights });
 
 impl KdSettings {
-    /// A preset, damped against the performer and fed forward, all parts in full.
+    /// A preset with damping relative to the performer, feed-forward and full weights.
     pub const fn of(preset: KdPreset) -> KdSettings {
         KdSettings {
             gains: preset.gains(),

@@ -1,13 +1,13 @@
-//! From where a body is to where it is wanted.
+//! The transition from a body's present state to the wanted motion: inertial blending or get-up.
 
 use super::get_up::GetUp;
 use super::inertial_blend::InertialBlend;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Pose};
 
-/// How a body comes to a wanted pose.
+/// A transition to the wanted motion.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "one for a character; a box would be made amid a run")]
+#[expect(clippy::large_enum_variant, reason = "one for a character; a box would allocate during a run")]
 pub(super) enum Transition {
     InertialBlend(InertialBlend),
     GetUp(GetUp),
@@ -22,7 +22,8 @@ impl Default for Transition {
 }
 
 impl Transition {
-    /// From where a body is, by getting up where it lies; with the velocities of its hips and of the wanted ones \[m/s\].
+    /// A transition from the present pose, by a get-up if it lies; with the velocities of its hips and of the wanted
+    /// ones \[m/s\].
     pub(super) fn from_body(body: &Body, poses: [&Pose; 2], velocities: [DVec3; 2], over_secs: f64) -> Transition {
         let ([pose, wanted], [velocity, wanted_velocity]) = (poses, velocities);
         if GetUp::is_from(body, pose) {
@@ -32,7 +33,7 @@ impl Transition {
         }
     }
 
-    /// A step goes by; the pose at its end.
+    /// Advances by a step; returns the pose at its end.
     pub(super) fn step(&mut self, body: &Body, wanted: &Pose, step_secs: f64) -> Pose {
         match self {
             Transition::InertialBlend(slide) => slide.step(body, wanted, step_secs),
@@ -40,7 +41,7 @@ impl Transition {
         }
     }
 
-    /// How far it has come, 0 to 1.
+    /// Progress, 0 to 1.
     pub(super) fn progress(&self) -> f64 {
         match self {
             Transition::InertialBlend(slide) => slide.progress(),
