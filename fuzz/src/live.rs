@@ -10,7 +10,7 @@ use sinew_live::vmc::VmcReader;
 /// Reads a datagram twice, and performs what it says.
 ///
 /// # Panics
-/// If a pose that is shown has numbers that are none.
+/// If a shown pose has NaN or infinite values.
 pub fn vmc(data: &[u8]) {
     let mut reader = VmcReader::new();
     let mut samples = Vec::new();

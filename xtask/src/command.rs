@@ -1,4 +1,4 @@
-//! Running programs, in sight of whoever waits.
+//! Runs programs with visible output.
 
 use std::env;
 use std::ffi::OsString;
@@ -13,7 +13,7 @@ pub fn cargo(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// The command as somebody would type it.
+/// The command as typed in a shell.
 fn typed(command: &Command) -> String {
     let name = Path::new(command.get_program()).file_stem().unwrap_or_default().to_owned();
     let words = std::iter::once(name).chain(command.get_args().map(OsString::from));

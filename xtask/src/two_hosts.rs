@@ -20,7 +20,7 @@ const SCENE: &str = "scenes/tug-of-war.toml";
 /// The key with which red is pulled.
 const KEY: &str = "2";
 
-/// Where a performer is heard on its own host.
+/// Port of a performer on its own host.
 const VMC: &str = "39539";
 
 /// Delay of the relay each way \[ms\].

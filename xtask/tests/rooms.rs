@@ -5,8 +5,8 @@ use std::fs;
 use xtask::imports::{is_below, paths};
 use xtask::{page, repository};
 
-/// The terms of the column "knows nothing of", each with the paths that whoever knows it would name. A term that is not here is an
-/// error: a row that cannot be checked would only be a promise.
+/// The terms of the column "knows nothing of", each with the paths that a crate must not name. An unknown term is an
+/// error, because a row must be checkable.
 const TERMS: [(&str, &[&str]); 22] = [
     ("all other crates of ours", &["sinew"]),
     ("masses", &["sinew_body"]),

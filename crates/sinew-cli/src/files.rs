@@ -1,4 +1,4 @@
-//! `-o`, `--report`, `--picture`: where results go.
+//! `-o`, `--report`, `--picture`: output files.
 
 use crate::output;
 use anyhow::{Context, Result, bail};
@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 /// Where results go.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct Files {
-    /// Where to write the motion; the extension tells the format: .bvh, .amc (with .asf), .glb or .gltf, of scenes and reaches
-    /// .csv too; may be repeated.
+    /// Output file of the motion; the extension decides the format: .bvh, .amc (with .asf), .glb or .gltf, of scenes
+    /// and reaches .csv too; may be repeated.
     #[arg(short = 'o', long = "output", value_name = "OUT")]
     pub motions: Vec<PathBuf>,
     /// Where to write a report as JSON.
@@ -28,7 +28,7 @@ impl Files {
         self.motions.iter().chain(&self.report).chain(&self.picture)
     }
 
-    /// Refuses to lose anybody's work, before any is done: inputs that would be written over, two results in one place.
+    /// Checks outputs before any work is done: no input is overwritten, no two results go to one file.
     pub fn check_places<'a>(
         &'a self,
         inputs: impl Iterator<Item = &'a PathBuf>,
@@ -47,7 +47,7 @@ impl Files {
         self.report.as_ref().map_or(Ok(()), |path| output::write_json(path, report))
     }
 
-    /// Says what was written; none when there was nothing.
+    /// The list of written files, as text.
     pub fn words<'a>(&'a self, more: impl Iterator<Item = &'a PathBuf>) -> Option<String> {
         let names: Vec<String> = self.all().chain(more).map(|path| path.display().to_string()).collect();
         (!names.is_empty()).then(|| format!("wrote {}", names.join(", ")))
@@ -76,7 +76,7 @@ pub(crate) fn write_recording(path: &Path, recording: &Recording, character: Opt
     Ok(())
 }
 
-/// The character that a file of one is to hold.
+/// The character for a file that holds one.
 fn one_of<'a>(recording: &'a Recording, character: Option<&str>, path: &Path) -> Result<&'a RecordedCharacter> {
     let characters = &recording.characters;
     let names: Vec<&str> = characters.iter().map(|character| character.name.as_str()).collect();

@@ -1,4 +1,4 @@
-//! Somebody at the keyboard of a run, with an editor open beside it.
+//! Interactive input of a run: keyboard lines, and controllers that are reloaded when their files change.
 
 use sinew::control::{Action, Command};
 use sinew::stage::{Observer, Scene, Stage};
@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Applies what is typed, reloads what is edited, and tells what happens.
+/// Applies typed lines, reloads edited controllers, and prints events.
 pub(crate) struct Interactive {
     lines: Receiver<String>,
-    /// Controllers with a file: name, place, when it was last changed.
+    /// Controllers with a file: name, path, time of the last change.
     files: Vec<(String, PathBuf, Option<SystemTime>)>,
     looked: Instant,
     told: usize,
@@ -19,7 +19,7 @@ pub(crate) struct Interactive {
 /// Lines that wait to be applied.
 const MAX_LINES: usize = 100;
 
-/// Time between two looks at the controllers' files.
+/// Interval at which the controllers' files are checked.
 const LOOK: Duration = Duration::from_millis(200);
 
 impl Interactive {
@@ -71,7 +71,7 @@ fn apply(stage: &mut Stage, line: &str) {
     if line.starts_with('{') {
         match serde_json::from_str(line) {
             Ok(command) => stage.command(command),
-            Err(error) => eprintln!("this is no command: {error}"),
+            Err(error) => eprintln!("not a valid command: {error}"),
         }
     } else if !stage.press(line) {
         let keys: Vec<&str> = stage.scene().keys.iter().map(|binding| binding.key.as_str()).collect();

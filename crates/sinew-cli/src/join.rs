@@ -21,33 +21,33 @@ pub(crate) struct Join {
     /// The actor to play; may be repeated. Without it you watch, or operate with the operator's token.
     #[arg(long = "as", value_name = "ACTOR")]
     actors: Vec<String>,
-    /// Send what a performer does: listen for VMC on this UDP port; samples go to the first actor.
+    /// Send a performer's motion: listen for VMC on this UDP port; samples go to the first actor.
     #[arg(long, value_name = "PORT", requires = "actors")]
     vmc: Option<u16>,
-    /// The address of this machine on which the performer is listened for; 0.0.0.0 lets other machines' senders in.
+    /// The address of this machine to listen on for the performer; 0.0.0.0 accepts other machines.
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     listen: IpAddr,
     /// A file with the token, such as `sinew serve --token-file` wrote: with --as the first line is taken, else the last.
     #[arg(long, value_name = "F")]
     token_file: Option<PathBuf>,
-    /// How long to stay [s]; until the session ends when left out.
+    /// Leave after this time [s]. Default: when the session ends.
     #[arg(long = "for", value_name = "SECONDS")]
     for_secs: Option<f64>,
     /// Press a key of the scene at a time after joining [s], such as b@1.5; may be repeated.
     #[arg(long, value_name = "KEY@SECONDS", value_parser = press)]
     press: Vec<(f64, String)>,
-    /// Obey lines of the standard input: a key of the scene, or a command as JSON such as
+    /// Send lines of the standard input: a key of the scene, or a command as JSON such as
     /// {"character":"red","do":"pose","name":"guard"}.
     #[arg(long)]
     keys: bool,
-    /// The side that your own camera stands on, about +Y from +Z to +X [degrees]; the scene's when left out.
+    /// Azimuth of your own camera, about +Y from +Z to +X [degrees]. Default: the scene's.
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     camera: Option<f64>,
     #[command(flatten)]
     out: Out,
 }
 
-/// Time that is waited for a frame.
+/// Maximum wait for a frame.
 const LOOK: Duration = Duration::from_millis(5);
 
 /// Lines that wait to be sent.
@@ -57,7 +57,7 @@ impl Join {
     pub(crate) fn run(&self) -> Result<()> {
         self.out.check(self.token_file.iter(), std::iter::empty())?;
         let token = self.token()?;
-        // Opened first: nobody is to find out in the session that the port is taken.
+        // Opened first, so that a port in use is an error before the session is joined.
         let performer = self.vmc.map(|port| Port::vmc(SocketAddr::new(self.listen, port))).transpose()?;
         let client = Client::join(&token, &self.actors)?;
         let whom = match (self.actors.is_empty(), token.role) {
@@ -94,7 +94,7 @@ impl Join {
         lines.extend(self.out.files().words(std::iter::empty()));
         output::say(&lines.join("\n"))?;
         if stats.frames_that_differ > 0 {
-            bail!("what arrived is not what the server has: its hashes differ; use the same Sinew on both sides");
+            bail!("received frames differ from the server's: their hashes differ; use the same Sinew on both sides");
         }
         match report.ended {
             Some(why) if stats.frames == 0 => bail!("{why}"),
@@ -124,7 +124,7 @@ impl Join {
             while let Some((_, sample)) = performer.and_then(Port::next) {
                 client.perform(0, sample);
             }
-            // With a performer it does not wait long: its samples are on their way.
+            // With a performer the wait is short, so that its samples are sent without delay.
             let within = if performer.is_some() { LOOK / 5 } else { LOOK };
             if let Some(frame) = client.next_frame(within)
                 && let Some(view) = &mut view
@@ -150,7 +150,7 @@ impl Join {
         let Some(path) = &self.token_file else {
             let token: Token = self.server.parse().with_context(|| {
                 format!(
-                    "`{}` is no token, and a host needs --token-file",
+                    "`{}` is not a valid token, and a host needs --token-file",
                     self.server.chars().take(80).collect::<String>()
                 )
             })?;
@@ -195,7 +195,7 @@ fn send(client: &Client, line: &str) {
         match serde_json::from_str::<Command>(line) {
             Ok(command) => client.command(command),
             Err(error) => {
-                eprintln!("this is no command: {error}");
+                eprintln!("not a valid command: {error}");
                 true
             }
         }
@@ -203,6 +203,6 @@ fn send(client: &Client, line: &str) {
         client.press(line)
     };
     if !is_sent {
-        eprintln!("too much waits to be sent; this is left out");
+        eprintln!("the send queue is full; this line is dropped");
     }
 }

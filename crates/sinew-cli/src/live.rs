@@ -1,4 +1,4 @@
-//! What comes in from performers and goes out to viewers while a scene runs.
+//! Performers' input and viewers' output of a running scene.
 
 use anyhow::{Context, Result, bail};
 use sinew::control::{Action, Command};
@@ -12,17 +12,18 @@ use std::path::PathBuf;
 /// Arguments about performers.
 #[derive(Debug, clap::Args)]
 pub(crate) struct LiveArguments {
-    /// The address of this machine on which performers are listened for; 0.0.0.0 lets other machines in.
+    /// The address of this machine to listen on for performers; 0.0.0.0 accepts other machines.
     #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
     listen: IpAddr,
-    /// Open no port for performers, and do not wait for the clock.
+    /// Open no port for performers, and do not run in real time.
     #[arg(long)]
     no_live: bool,
     /// Send a character's simulated pose to a program that shows VMC, such as 127.0.0.1:39540 or red@127.0.0.1:39540; may be
     /// repeated. Without a name it is the first character.
     #[arg(long, value_name = "[NAME@]HOST:PORT")]
     vmc_out: Vec<String>,
-    /// Perform over a take: its performers and commands act as they did, and those whom nobody performed there are live.
+    /// Record over a take: its performers and commands are replayed, and characters that were not performed in it are
+    /// live.
     #[arg(long, value_name = "T.take")]
     over: Option<PathBuf>,
 }
@@ -66,7 +67,7 @@ impl LiveArguments {
                 scene.stage.physics_hz
             );
         }
-        // Scripts are held to their time anew.
+        // The time limit of scripts applies anew.
         let is_kept = |stamped: &Stamped| !matches!(stamped.command.action, Action::ScriptKilled { .. });
         Ok(take.commands.into_iter().filter(is_kept).collect())
     }
@@ -99,7 +100,7 @@ pub(crate) fn resolve(text: &str) -> Result<SocketAddr> {
 }
 
 impl Live {
-    /// Whether somebody may perform, so that the stage must keep to the clock.
+    /// Whether a performer's port is open, so that the stage must run in real time.
     pub(crate) fn keeps_time(&self) -> bool {
         !self.performers.is_empty()
     }
@@ -120,7 +121,7 @@ impl Observer for Live {
         self.performers.shown();
     }
 
-    /// What has arrived and what the take below says goes into the next step.
+    /// Passes the samples that have arrived and the commands of the underlying take to the next step.
     fn before_step(&mut self, stage: &mut Stage) {
         let step = stage.frame().step;
         if step == 0 {

@@ -1,4 +1,4 @@
-//! The `sinew` command: arguments in, jobs of the library, words out.
+//! The `sinew` command: arguments in, jobs of the library, text out.
 
 mod convert;
 mod files;
@@ -27,7 +27,7 @@ use sinew::motion::formats::ReadOptions;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Animated characters that answer to physics.
+/// Animated characters that respond to physics.
 #[derive(Debug, Parser)]
 #[command(version, propagate_version = true)]
 struct Arguments {
@@ -37,24 +37,24 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Say what a motion file is and what Sinew makes of it.
+    /// Inspect a motion file: skeleton, body parts, gait, defects.
     Inspect(inspect::Inspect),
     /// Convert a motion file into another format.
     Convert(convert::Convert),
-    /// Push a character and get back how it yields and recovers.
+    /// Push a character: it yields and recovers.
     Respond(respond::Respond),
-    /// Make somebody reach for a target with arms, spine, head and legs.
+    /// Reach for a target with arms, spine, head and legs.
     Reach(reach::Reach),
     /// Run a scene: characters in a physical world.
     Run(run::Run),
-    /// Play a motion file as a live performer, over a network as bad as you like.
+    /// Play a motion file as a live performer, optionally over an emulated bad network.
     Perform(perform::Perform),
-    /// Play a take again, bit for bit, or with other values.
+    /// Replay a take, bit for bit, or with other values.
     Replay(run::Replay),
     /// Run a scene for actors on several machines.
     #[cfg(feature = "session")]
     Serve(serve::Serve),
-    /// Join a scene that `sinew serve` runs: as an actor, as its operator, or to watch.
+    /// Join a session of `sinew serve`: as an actor, as its operator, or to watch.
     #[cfg(feature = "session")]
     Join(join::Join),
     /// Run a scene's Python in a process of its own; `sinew` starts it itself.
@@ -63,7 +63,7 @@ enum Command {
     ScriptHost,
 }
 
-/// How a motion file is to be read.
+/// Options for reading a motion file.
 #[derive(Debug, clap::Args)]
 struct Reading {
     /// Length of one unit of the file in metres (0.01 for centimetres) instead of a guess.
@@ -80,7 +80,7 @@ impl Reading {
     }
 }
 
-/// Whom the character is taken to be.
+/// The person of the character.
 #[derive(Debug, clap::Args)]
 struct Who {
     /// Mass of the body in kilograms, 1 to 1000.
@@ -116,7 +116,7 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        // A reader that has seen enough (`sinew inspect ... | head`) is no failure.
+        // A closed pipe (`sinew inspect ... | head`) is not a failure.
         Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("sinew: {error:#}");
@@ -125,7 +125,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether an error is about what was asked for, whatever the file.
+/// Whether an error is about the arguments, independent of the file.
 fn is_wrong_usage(error: &anyhow::Error) -> bool {
     error.downcast_ref().is_some_and(RespondError::is_of_job) || error.downcast_ref().is_some_and(ReachError::is_of_job)
 }

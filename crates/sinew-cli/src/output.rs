@@ -1,4 +1,4 @@
-//! What goes out: words, files, progress.
+//! Output: text, files, progress.
 
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Prints to standard output; an error when nobody reads any more.
+/// Prints to standard output; an error if the pipe is closed.
 pub(crate) fn say(text: &str) -> Result<()> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
@@ -28,18 +28,18 @@ pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     write_bytes(path, &text)
 }
 
-/// Writes a file whole or not at all, making its folder.
+/// Writes a file atomically, and makes its folder.
 pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
     make_folder(path)?;
     Ok(write_whole(path, bytes)?)
 }
 
-/// Refuses to write over what is read, or two results to one place: nobody's work is lost by a slip.
+/// Refuses to overwrite an input, or to write two results to one file.
 pub(crate) fn check_places<'a>(
     inputs: impl Iterator<Item = &'a PathBuf>,
     outputs: impl Iterator<Item = &'a PathBuf>,
 ) -> Result<()> {
-    // A file that is not there yet is told by its folder and name.
+    // A file that does not exist yet is identified by its folder and name.
     let place = |path: &Path| {
         path.canonicalize().ok().or_else(|| {
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -52,9 +52,9 @@ pub(crate) fn check_places<'a>(
         let here = place(path);
         match taken.iter().position(|other| other.is_some() && *other == here) {
             Some(index) if index < read => {
-                bail!("{}: this would overwrite what is read; write to another file", path.display())
+                bail!("{}: this would overwrite an input; write to another file", path.display())
             }
-            Some(_) => bail!("{}: two results are to go there; give each its own file", path.display()),
+            Some(_) => bail!("{}: two results have this file; give each its own file", path.display()),
             None => taken.push(here),
         }
     }
@@ -80,7 +80,7 @@ pub(crate) fn make_folder(path: &Path) -> Result<()> {
     }
 }
 
-/// A spinner on a terminal that says what takes so long; nothing when piped.
+/// A spinner on a terminal with the present activity; nothing when piped.
 pub(crate) fn spinner() -> ProgressBar {
     let bar = ProgressBar::new_spinner();
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {

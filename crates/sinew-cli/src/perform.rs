@@ -16,36 +16,37 @@ use std::time::{Duration, Instant};
 /// Arguments of `sinew perform`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Perform {
-    /// The motion file to play, forwards and backwards in turn; a walk that Sinew makes itself when left out.
+    /// The motion file to play, forwards and backwards in turn; default: a generated walk.
     clip: Option<PathBuf>,
-    /// Where to: udp://127.0.0.1:39539 sends VMC; tcp://127.0.0.1:39541 sends a BVH raw, as some suits do, at its own rate.
+    /// The receiver: udp://127.0.0.1:39539 sends VMC; tcp://127.0.0.1:39541 sends a BVH raw, as some motion capture
+    /// suits do, at its own rate.
     #[arg(long, value_name = "udp://HOST:PORT")]
     to: String,
-    /// Frames a second; 60 when left out.
+    /// Frames a second. Default: 60.
     #[arg(long, value_name = "N")]
     fps: Option<f64>,
-    /// For how long [s]; until stopped when left out.
+    /// Duration [s]. Default: until stopped.
     #[arg(long = "for", value_name = "SECONDS")]
     for_secs: Option<f64>,
-    /// Every datagram arrives so much later [ms].
+    /// Delay of every datagram [ms].
     #[arg(long, value_name = "MS", default_value_t = 0.0, value_parser = millis)]
     delay: f64,
-    /// And up to so much later on top [ms].
+    /// Maximum additional delay (jitter) [ms].
     #[arg(long, value_name = "MS", default_value_t = 0.0, value_parser = millis)]
     jitter: f64,
-    /// Share that never arrives, 0 to 1.
+    /// Share that is lost, 0 to 1.
     #[arg(long, value_name = "P", default_value_t = 0.0, value_parser = share)]
     loss: f64,
     /// Share that arrives twice, 0 to 1.
     #[arg(long, value_name = "P", default_value_t = 0.0, value_parser = share)]
     duplicate: f64,
-    /// Share that is held back by one to three frames, 0 to 1.
+    /// Share that is reordered: delayed by one to three frames, 0 to 1.
     #[arg(long, value_name = "P", default_value_t = 0.0, value_parser = share)]
     reorder: f64,
-    /// Share that is spoilt: numbers that are none, turns that are no rotations, jumps, old time stamps, cut off; 0 to 1.
+    /// Share that is corrupted: NaN, invalid quaternions, jumps, old time stamps, truncation; 0 to 1.
     #[arg(long, value_name = "P", default_value_t = 0.0, value_parser = share)]
     corrupt: f64,
-    /// Where the randomness comes from.
+    /// Seed of the random generator.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     #[command(flatten)]
@@ -91,7 +92,7 @@ impl Perform {
         };
         let socket = UdpSocket::bind(if to.is_ipv4() { "0.0.0.0:0" } else { "[::]:0" })?;
         let (frames, datagrams) = play(&player, &impairment, self.for_secs, |bytes| {
-            // Nobody listens yet, or the way is full: the next one is newer.
+            // No receiver yet, or a full buffer: the next one is newer.
             let _ = socket.send_to(bytes, to);
         });
         output::say(&format!("performed {frames} frames in {datagrams} datagrams to {to}"))

@@ -1,10 +1,10 @@
-//! `--push part=leftHand,force=0:0:-100,at=1.0,for=0.1` and its kin.
+//! `--push part=leftHand,force=0:0:-100,at=1.0,for=0.1` and similar arguments.
 
 use glam::DVec3;
 use sinew::motion::Part;
 use sinew::response::{GroundJerk, Push, PushFrame};
 
-/// Parses a push: `part=` and `force=` are needed; `at=`, `for=`, `point=` and `frame=` have defaults.
+/// Parses a push: `part=` and `force=` are required; `at=`, `for=`, `point=` and `frame=` have defaults.
 pub(crate) fn push(text: &str) -> Result<Push, String> {
     let mut fields = Fields::of(text, &["part", "force", "at", "for", "frame", "point"])?;
     let part: Part = fields.needed("part")?.parse().map_err(|error: sinew::motion::UnknownPart| error.to_string())?;
@@ -18,7 +18,7 @@ pub(crate) fn push(text: &str) -> Result<Push, String> {
     })
 }
 
-/// Parses a jerk of the ground: `accel=` is needed.
+/// Parses an acceleration of the ground: `accel=` is required.
 pub(crate) fn ground(text: &str) -> Result<GroundJerk, String> {
     let mut fields = Fields::of(text, &["accel", "at", "for", "frame"])?;
     Ok(GroundJerk {
@@ -70,15 +70,15 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// No force, time or length that anybody means is larger, in newtons, seconds or metres.
-const LARGEST: f64 = 1e6;
+/// Maximum force, time or length, in newtons, seconds or metres.
+const MAX_ABS: f64 = 1e6;
 
 fn number(text: &str, what: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| format!("{what}: {text:?} is no number"))?;
     if !value.is_finite() {
         return Err(format!("{what}: {text:?} is not finite"));
     }
-    if value.abs() > LARGEST { Err(format!("{what}: {text} is more than {LARGEST:e}")) } else { Ok(value) }
+    if value.abs() > MAX_ABS { Err(format!("{what}: {text} is more than {MAX_ABS:e}")) } else { Ok(value) }
 }
 
 pub(crate) fn vector(text: &str, what: &str) -> Result<DVec3, String> {

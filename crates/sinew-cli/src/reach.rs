@@ -42,25 +42,26 @@ pub(crate) struct Reach {
     /// Share of the twist after which the spine swings, 0 to 1.
     #[arg(long, value_name = "R", value_parser = within::<0, 100>)]
     overlap_twist: Option<f64>,
-    /// Where the target is at a time; may be repeated, for later times.
+    /// Position of the moving target at a time; may be repeated, for later times.
     #[arg(long, value_name = "X:Y:Z@T", value_parser = moving, allow_hyphen_values = true)]
     moving: Vec<MovingPoint>,
-    /// A ball that the arms keep clear of: its centre and radius in metres; may be repeated. Scenes know other shapes.
+    /// A ball as obstacle of the arms: its centre and radius in metres; may be repeated. Scenes know other shapes.
     #[arg(long, value_name = "X:Y:Z:R", value_parser = ball, allow_hyphen_values = true)]
     avoid: Vec<Ball>,
-    /// Make so many ways, 1 to 200, with seeds from --seed on; the picture is a contact sheet, and files are numbered.
+    /// Number of variations, 1 to 200, with seeds from --seed on; the picture is a contact sheet, and files are
+    /// numbered.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=200))]
     variations: Option<u64>,
     /// Begin in a clip at a time, such as walk.bvh@1.5.
     #[arg(long, value_name = "CLIP@T", value_parser = from)]
     from: Option<(PathBuf, f64)>,
-    /// Stand up again afterwards; with --from go on with the clip.
+    /// Stand up again afterwards; with --from continue the clip.
     #[arg(long)]
     back: bool,
-    /// The paper to the letter where it can be built.
+    /// Follow the paper as printed where it can be built.
     #[arg(long)]
     print: bool,
-    /// Where every random choice comes from.
+    /// Seed of all random choices.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
     #[command(flatten)]

@@ -23,19 +23,19 @@ pub(crate) struct Respond {
     /// Newtons and seconds; x to the character's left, y up, z forward.
     #[arg(long, value_name = "PUSH", value_parser = push)]
     push: Vec<Push>,
-    /// A jerk of the ground, such as accel=4:0:0,at=1.0,for=0.2 (m/s²); may be repeated.
+    /// An acceleration of the ground, such as accel=4:0:0,at=1.0,for=0.2 (m/s²); may be repeated.
     #[arg(long, value_name = "JERK", value_parser = ground)]
     platform: Vec<GroundJerk>,
-    /// The reading of the paper.
+    /// The preset.
     #[arg(long, value_enum, default_value = "robust")]
     preset: PresetName,
-    /// How far the body yields, from 0.25 (stiff) to 4 (loose).
+    /// Compliance of the body, from 0.25 (stiff) to 4 (loose).
     #[arg(long, value_name = "C", default_value_t = 1.0)]
     compliance: f64,
-    /// How many coordinates obey dynamics, 0 to 24.
+    /// Number of coordinates under dynamics, 0 to 24.
     #[arg(short, value_name = "K", default_value_t = 10)]
     k: usize,
-    /// Which coordinates obey dynamics; `high` is the paper's counter-experiment, with --preset paper.
+    /// Which coordinates are under dynamics; `high` is the paper's counter-experiment, with --preset paper.
     #[arg(long, value_enum, default_value = "low")]
     coordinates: CoordinatesName,
     /// Take the coordinates of actuation from another clip.
@@ -57,11 +57,11 @@ pub(crate) struct Respond {
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum PresetName {
-    /// What holds on every clip.
+    /// Robust on every clip.
     Robust,
-    /// Close to the print: shows the paper's sweep over k.
+    /// Close to the paper as printed: shows its sweep over k.
     Paper,
-    /// The print, which does not hold.
+    /// The paper as printed, which is unstable.
     Literal,
 }
 
@@ -71,7 +71,7 @@ enum CoordinatesName {
     High,
 }
 
-/// What the command does without a clip and without a push: shows what it is for.
+/// The demonstration without a clip and without a push.
 const SHOW: Push = Push {
     part: Part::LeftHand,
     point: None,
@@ -146,7 +146,7 @@ impl Respond {
     }
 }
 
-/// What is written when nothing is asked for.
+/// Default output files.
 fn in_folder(folder: &Path) -> Files {
     Files {
         motions: vec![folder.join("pushed.bvh"), folder.join("pushed.glb")],
@@ -171,7 +171,7 @@ fn write(files: &Files, file: &MotionFile, answer: &Answer, job: &RespondJob) ->
     Ok(notes)
 }
 
-/// What happened, in a few lines, and what to try next.
+/// A summary in a few lines, and suggestions.
 fn words(answer: &Answer, job: &RespondJob, files: &Files) -> String {
     let report = &answer.report;
     let mut lines = vec![format!(
@@ -232,7 +232,7 @@ fn outcome(peaks: &BTreeMap<String, f64>, recovered_after_s: Option<f64>) -> [St
     [format!("  peak deflection: {}", most.join(", ")), recovered]
 }
 
-/// Below this nobody can tell the answer from the input \[deg\]; files print fewer digits.
+/// Deviation below which the answer looks like the input \[deg\]; files print fewer digits.
 const UNCHANGED_DEG: f64 = 1e-6;
 
 fn suggestion(job: &RespondJob) -> &'static str {

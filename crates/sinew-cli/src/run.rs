@@ -25,8 +25,8 @@ pub(crate) struct Run {
     /// Press a key of the scene at a time \[s\], such as b@1.5; may be repeated.
     #[arg(long, value_name = "KEY@SECONDS", value_parser = press)]
     press: Vec<(f64, String)>,
-    /// Run at the pace of the clock: controllers are read again when their files change, and lines of the standard input are
-    /// applied: a key of the scene, or a command as JSON such as {"character":"left","do":"pose","name":"guard"}.
+    /// Run in real time: controllers are reloaded when their files change, and lines of the standard input are applied:
+    /// a key of the scene, or a command as JSON such as {"character":"left","do":"pose","name":"guard"}.
     #[arg(long)]
     real_time: bool,
     /// Step the world on this many threads: a gain for crowds, with the same bits.
@@ -45,7 +45,7 @@ pub(crate) struct Run {
 /// Arguments of `sinew replay`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Replay {
-    /// The take to play again.
+    /// The take to replay.
     take: PathBuf,
     /// Change a value of its scene first, such as characters.left.pose_gain=2; may be repeated.
     #[arg(long, value_name = "PATH=VALUE", value_parser = assignment)]
@@ -127,8 +127,8 @@ impl Replay {
         if self.set.is_empty() {
             if ran.take.hash != take.hash {
                 let place = match first_difference(&ran.take, &take) {
-                    Some(step) => format!("they part before step {step}"),
-                    None => "they part near the end".to_owned(),
+                    Some(step) => format!("they diverge before step {step}"),
+                    None => "they diverge near the end".to_owned(),
                 };
                 bail!(
                     "the replay's hash is {:016x}, the take's {:016x}: {place}; it was recorded by version {}, this is {}",
@@ -210,7 +210,7 @@ impl Out {
         }
         for (name, actor) in &report.actors {
             if actor.received == 0 {
-                lines.push(format!("nobody performed {name}"));
+                lines.push(format!("{name} had no performer"));
                 continue;
             }
             let latency = actor.latency_ms.map_or(String::new(), |latency| {
@@ -234,7 +234,7 @@ pub(crate) fn script_host() -> Option<ScriptHost> {
     cfg!(feature = "python").then(|| ScriptHost { program, args, limits: Limits::default() })
 }
 
-/// The first step at which the hashes on the way differ.
+/// The first step at which intermediate hashes differ.
 fn first_difference(one: &Take, other: &Take) -> Option<u64> {
     let (one, other) = (one.trace.as_ref()?, other.trace.as_ref()?);
     let place = one.hashes.iter().zip(&other.hashes).position(|(a, b)| a != b)?;

@@ -15,20 +15,21 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Serve {
     /// The scene file.
     scene: PathBuf,
-    /// The address to bind, with or without a port; 0.0.0.0 lets every machine of the network in. Loopback, which lets nobody
-    /// else in, when left out.
+    /// The address to bind, with or without a port; 0.0.0.0 accepts every machine of the network. Default: loopback,
+    /// which accepts only this machine.
     #[arg(long, value_name = "ADDRESS[:PORT]", default_value = "127.0.0.1", value_parser = bind)]
     bind: SocketAddr,
-    /// What others call this machine, for the token; the bound address when left out.
+    /// Host name of this machine as others know it, for the token. Default: the bound address.
     #[arg(long, value_name = "HOST")]
     name: Option<String>,
-    /// Where to write the tokens too: the actors' in the first line, the operator's in the second. Only you can read the file.
+    /// Also write the tokens to this file: the actors' in the first line, the operator's in the second. Only you can
+    /// read it.
     #[arg(long, value_name = "F")]
     token_file: Option<PathBuf>,
     /// Maximum number of connected clients.
     #[arg(long, alias = "most-clients", value_name = "N", default_value_t = 32)]
     max_clients: usize,
-    /// How long to run [s]; until interrupted when left out.
+    /// Duration [s]. Default: until interrupted.
     #[arg(long = "for", value_name = "SECONDS")]
     for_secs: Option<f64>,
     /// Change a value of the scene first, such as characters.left.pose_gain=2; may be repeated.
@@ -85,7 +86,7 @@ impl Serve {
         let mut lines = vec![
             format!("{}: {:.2} s, {} steps, hash {}", self.scene.display(), run.duration_s, run.steps, run.hash),
             format!(
-                "{} clients joined, {} strangers refused; {} orders passed, {} refused, {} dropped",
+                "{} clients joined, {} connections refused; {} requests queued, {} refused, {} dropped",
                 clients.joined,
                 clients.connections_refused,
                 clients.requests,
@@ -97,7 +98,7 @@ impl Serve {
         output::say(&lines.join("\n"))
     }
 
-    /// Says once how to join.
+    /// Prints once how to join.
     fn tell(&self, server: &Server, scene: &Scene) -> Result<()> {
         let (actor, operator) = (server.token(Role::Actor), server.token(Role::Operator));
         if let Some(path) = &self.token_file {
@@ -105,9 +106,9 @@ impl Serve {
         }
         let whom: Vec<&str> = scene.characters.keys().map(String::as_str).collect();
         let reach = if server.address().ip().is_loopback() {
-            "for this machine only; --bind lets others in"
+            "for this machine only; --bind accepts others"
         } else {
-            "whoever has a token can join"
+            "every holder of a token can join"
         };
         output::say(&format!(
             "{} is served at {}, {reach}\nactors ({}):  sinew join {actor} --as NAME\nthe operator:  sinew join {operator}",
@@ -122,7 +123,7 @@ impl Serve {
 fn write_secretly(path: &Path, text: &str) -> Result<()> {
     use std::io::Write;
     output::make_folder(path)?;
-    // An old file may be open to others, and what is written would go there.
+    // An existing file may be open to others.
     let _ = std::fs::remove_file(path);
     let mut options = std::fs::OpenOptions::new();
     options.write(true).create_new(true);

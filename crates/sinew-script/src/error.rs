@@ -1,16 +1,16 @@
-//! What is wrong with a script, and where.
+//! Errors of a script.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What is wrong with a script, and where.
+/// An error of a script, with its place.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 pub struct ScriptError {
     /// The script's file, as the stage named it.
     pub file: String,
-    /// The line in it, from 1; `None` when the trouble is not in one line.
+    /// The line in it, from 1; `None` if it is not in one line.
     pub line: Option<u32>,
-    /// What is wrong, in Python's words where Python found it.
+    /// The problem; Python's own text if Python found it.
     pub message: String,
 }
 

@@ -1,21 +1,21 @@
-//! How much a script may use.
+//! Limits of a script.
 
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// How much a script may use.
+/// Limits of a script.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
     /// Address space for the script's own data, on top of what the interpreter has taken before the script is read
-    /// \[bytes\]. Held by the kernel on Linux; elsewhere it is not held.
+    /// \[bytes\]. Enforced by the kernel on Linux; not enforced elsewhere.
     pub memory_bytes: u64,
-    /// How long a step may take on the wall's clock \[s\].
+    /// Maximum wall-clock time of a step \[s\].
     pub step_secs: f64,
-    /// How much longer the first step and a new text may take, for the interpreter to start \[s\].
+    /// Additional time for the first step and a new text, for the interpreter to start \[s\].
     pub startup_secs: f64,
-    /// Commands in one step; one more is an exception in the script.
+    /// Maximum number of commands in one step; one more is an exception in the script.
     pub commands: usize,
-    /// Printed lines that are kept in one step; further ones are counted.
+    /// Maximum number of printed lines kept in one step; further ones are counted.
     pub printed_lines: usize,
 }
 
@@ -35,7 +35,7 @@ impl Limits {
     }
 }
 
-/// From a millisecond to a day: a time that cannot be waited for is no limit.
+/// Clamped to the range from a millisecond to a day.
 fn seconds(secs: f64) -> Duration {
     let secs = if secs.is_finite() { secs.clamp(1e-3, 86_400.0) } else { 86_400.0 };
     Duration::from_secs_f64(secs)

@@ -1,11 +1,11 @@
-//! What a script can call by name, told once.
+//! The names that a script can use, sent once.
 
 use serde::{Deserialize, Serialize};
 
-/// A script and all that stays the same while it runs.
+/// A script and its constant data.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct StartInfo {
-    /// The text, at most a mebibyte.
+    /// The text, at most 1 MiB.
     pub source: String,
     /// The file that it is from, for the lines of errors.
     pub file: String,
@@ -13,13 +13,13 @@ pub struct StartInfo {
     pub class: String,
     /// The character that it controls, one of [`Names::characters`], or the prop, one of [`Names::objects`].
     pub own: String,
-    /// What the script's `random` numbers begin with.
+    /// Seed of the script's `random` numbers.
     pub seed: u64,
-    /// What it can call by name.
+    /// The names that it can use.
     pub names: Names,
 }
 
-/// What a script can call by name.
+/// The names that a script can use.
 #[derive(Clone, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Names {
     /// The parts of every character, in the order of [`CharacterState::parts`](crate::CharacterState::parts).

@@ -1,4 +1,4 @@
-//! The child process and the wire to it. Nothing here waits longer than it is told.
+//! The child process and the protocol with it. Every wait has a timeout.
 
 use crate::protocol::{self, MAX_REPLY};
 use std::path::Path;
@@ -12,11 +12,11 @@ pub(crate) struct Process {
     wire: std::os::unix::net::UnixStream,
 }
 
-/// Elsewhere no limit of memory would hold.
+/// Elsewhere the memory limit cannot be enforced.
 #[cfg(not(unix))]
 impl Process {
     pub fn start(_program: &Path, _arguments: &[String]) -> Result<Process, String> {
-        Err("Python controllers need Linux, whose limits of memory hold them".to_owned())
+        Err("Python controllers need Linux, which enforces their memory limit".to_owned())
     }
 
     pub fn ask(&mut self, _request: &[u8], _limit: Duration) -> Result<Vec<u8>, String> {
@@ -51,10 +51,10 @@ impl Process {
         use std::io::ErrorKind;
         self.exchange(request, std::time::Instant::now() + limit).map_err(|error| match error.kind() {
             ErrorKind::WouldBlock | ErrorKind::TimedOut => {
-                format!("it did not come back within {} s", limit.as_secs_f64())
+                format!("it did not return within {} s", limit.as_secs_f64())
             }
             ErrorKind::UnexpectedEof | ErrorKind::BrokenPipe | ErrorKind::ConnectionReset => self.cause_of_end(),
-            _ => format!("its process talks nonsense: {error}"),
+            _ => format!("its process sent an invalid message: {error}"),
         })
     }
 
@@ -73,13 +73,13 @@ impl Process {
                 Err(error) => return Err(error),
             }
         }
-        // Read as it comes: a child that announces much and sends little costs little.
+        // Memory grows only as bytes arrive, whatever length the child announces.
         let (mut bytes, mut chunk) = (Vec::new(), [0; 16 << 10]);
         loop {
             if let Some(head) = bytes.first_chunk::<4>() {
                 let length = protocol::length(*head, MAX_REPLY)?;
                 if bytes.len() > 4 + length {
-                    return Err(std::io::Error::other("an answer that nobody asked for"));
+                    return Err(std::io::Error::other("an answer without a request"));
                 }
                 if bytes.len() == 4 + length {
                     return Ok(bytes.split_off(4));
@@ -95,7 +95,7 @@ impl Process {
         }
     }
 
-    /// Why the child has hung up.
+    /// Why the child closed the connection.
     fn cause_of_end(&mut self) -> String {
         use std::os::unix::process::ExitStatusExt;
         for _ in 0..100 {
@@ -114,7 +114,7 @@ impl Process {
                 Err(_) => break,
             }
         }
-        "its process hung up".to_owned()
+        "its process closed the connection".to_owned()
     }
 }
 

@@ -1,15 +1,15 @@
-//! What the two processes say to each other: a length (four bytes, little end first) and that many bytes of postcard.
+//! The protocol of the two processes: a length (four bytes, little-endian) and that many bytes of postcard.
 
 use crate::{Limits, ScriptError, Snapshot, StartInfo};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io;
 
-/// The longest text of a script \[bytes\].
+/// Maximum length of a script's text \[bytes\].
 pub(crate) const MAX_SOURCE: usize = 1 << 20;
-/// The longest message to the child \[bytes\].
+/// Maximum length of a message to the child \[bytes\].
 pub(crate) const MAX_REQUEST: usize = 64 << 20;
-/// The longest message from the child \[bytes\].
+/// Maximum length of a message from the child \[bytes\].
 pub(crate) const MAX_REPLY: usize = 4 << 20;
 /// The longest state of a script \[bytes\].
 #[cfg(feature = "host")]

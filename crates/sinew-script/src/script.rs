@@ -1,4 +1,4 @@
-//! A controller in Python, as the stage sees it.
+//! A Python controller: the stage's side.
 
 use crate::process::Process;
 use crate::protocol::{self, MAX_REQUEST, MAX_SOURCE, Reply, Request};
@@ -8,7 +8,7 @@ use sinew_control::Command;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// How the child is started and held.
+/// How the child is started and limited.
 #[derive(Clone, Debug)]
 pub struct ScriptHost {
     /// A program that calls `sinew_script::host::main`; for `sinew`, itself.
@@ -19,10 +19,10 @@ pub struct ScriptHost {
     pub limits: Limits,
 }
 
-/// What came of a step.
+/// The outcome of a step.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct StepOutcome {
-    /// What the script wants done, in its order; what it said before an error counts.
+    /// Commands of the script, in order, including those before an error.
     pub commands: Vec<Command>,
     /// Lines that it printed.
     pub printed: Vec<String>,
@@ -60,7 +60,8 @@ impl Script {
         Ok(script)
     }
 
-    /// Calls `start()` if that is still to be done, then `step()`. Never takes longer than [`Limits`] say, never panics.
+    /// Calls `start()` if that is still to be done, then `step()`. Returns within the time of [`Limits`] and never
+    /// panics.
     pub fn step(&mut self, snapshot: &Snapshot) -> StepOutcome {
         let limit = if self.is_new { self.host.limits.startup() } else { self.host.limits.step() };
         let Some(process) = self.process.as_mut().filter(|_| self.is_running) else {
@@ -89,8 +90,9 @@ impl Script {
         }
     }
 
-    /// Goes on with another text. The class's `reload(self, old)` is called in the next step if it has one, else `start()`.
-    /// When the text is wrong, the controller so far goes on; only a text that does not come back takes it along.
+    /// Continues with another text. The class's `reload(self, old)` is called in the next step if it has one, else
+    /// `start()`. If the text is invalid, the present controller continues; only a text that does not return stops it
+    /// too.
     ///
     /// # Errors
     /// As [`Script::start`].
@@ -184,7 +186,7 @@ impl Script {
         match ask(&mut process, &request, limits.startup(), 0) {
             Ok((_, mut reply)) => {
                 self.printed.append(&mut reply.printed);
-                // A few steps' worth, should nobody step in between.
+                // A few steps' worth, in case no step is taken in between.
                 self.printed.truncate(4 * limits.printed_lines);
                 if let Some(error) = reply.error {
                     if let Some(before) = before {
@@ -211,7 +213,7 @@ impl Script {
     }
 }
 
-/// One question and its answer; the reason when there is none that can be believed.
+/// One request and its answer, or the reason why there is no valid one.
 fn ask(
     process: &mut Process,
     request: &Request<'_>,
@@ -220,7 +222,7 @@ fn ask(
 ) -> Result<(Vec<Command>, Reply), String> {
     let request = protocol::message(request, MAX_REQUEST).map_err(|error| error.to_string())?;
     let reply = process.ask(&request, limit)?;
-    let nonsense = |error: String| format!("its process talks nonsense: {error}");
+    let nonsense = |error: String| format!("its process sent an invalid message: {error}");
     let reply: Reply = protocol::content(&reply).map_err(|error| nonsense(error.to_string()))?;
     let commands: Vec<Command> = if reply.commands.is_empty() {
         Vec::new()
@@ -228,7 +230,7 @@ fn ask(
         serde_json::from_slice(&reply.commands).map_err(|error| nonsense(error.to_string()))?
     };
     if commands.len() > most {
-        return Err(nonsense(format!("{} commands where {most} are allowed", commands.len())));
+        return Err(nonsense(format!("{} commands; the maximum is {most}", commands.len())));
     }
     Ok((commands, reply))
 }

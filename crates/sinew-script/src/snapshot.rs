@@ -1,4 +1,4 @@
-//! What a script senses: the numbers of one step. Names are places in [`Names`](crate::Names), so that a step's message is short.
+//! The input of a script in one step. Names are indices in [`Names`](crate::Names), so that the message is short.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +17,7 @@ pub struct Snapshot {
     pub objects: Vec<ObjectState>,
     /// Joints of props, in the order of [`Names::joints`](crate::Names::joints).
     pub joints: Vec<JointState>,
-    /// What touches.
+    /// Contacts.
     pub contacts: Vec<Contact>,
 }
 
@@ -30,11 +30,11 @@ pub struct CharacterState {
     pub centre_of_mass: [f64; 3],
     /// Its velocity \[m/s\].
     pub centre_velocity: [f64; 3],
-    /// Where the character faces: a horizontal unit vector.
+    /// Facing of the character: a horizontal unit vector.
     pub facing: [f64; 3],
     /// Corners of the support polygon \[m\]; empty in the air.
     pub support: Vec<[f64; 3]>,
-    /// What is fastened to which part.
+    /// Attachments: which object to which part.
     pub attached: Vec<(usize, Thing)>,
 }
 
@@ -67,13 +67,13 @@ pub struct ObjectState {
 pub struct JointState {
     /// A hinge's angle \[degrees\], a slider's shift \[m\], else the distance of the ends \[m\].
     pub place: f64,
-    /// How fast that changes \[rad/s, m/s\].
+    /// Its rate of change \[rad/s, m/s\].
     pub speed: f64,
     /// Neither cut nor broken.
     pub is_whole: bool,
 }
 
-/// Something that can touch or be touched.
+/// A body that can have contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Thing {
     /// The ground.
@@ -84,7 +84,7 @@ pub enum Thing {
     Part(usize, usize),
 }
 
-/// Two things that touch.
+/// A contact of two bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// One.
@@ -98,7 +98,7 @@ pub struct Contact {
 }
 
 impl Snapshot {
-    /// Whether it has a state for everything that has a name, and refers to nothing else.
+    /// Whether it is consistent with the names: a state for each, and no other index.
     pub(crate) fn fits(&self, names: &crate::Names) -> bool {
         let (parts, characters, objects) = (names.parts.len(), names.characters.len(), names.objects.len());
         let known = |thing: Thing| match thing {

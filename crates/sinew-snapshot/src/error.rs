@@ -32,7 +32,7 @@ pub enum SnapshotError {
         /// How many are left.
         bytes: usize,
     },
-    /// A value is none that its type can have.
+    /// A value is invalid for its type.
     #[error("the snapshot holds an invalid {what}; it is of something else")]
     Invalid {
         /// Which value.
@@ -47,7 +47,7 @@ pub enum SnapshotError {
 }
 
 impl SnapshotError {
-    /// A value is none that its type can have.
+    /// A value is invalid for its type.
     pub fn invalid(what: &'static str) -> SnapshotError {
         SnapshotError::Invalid { what }
     }

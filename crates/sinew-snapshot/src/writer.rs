@@ -12,8 +12,7 @@ impl Writer {
         Writer::default()
     }
 
-    /// One that writes into `buffer`, which is emptied and keeps its capacity: whoever takes snapshots over and over allocates
-    /// once.
+    /// One that writes into `buffer`, which is emptied and keeps its capacity: repeated snapshots allocate once.
     pub fn into_buffer(mut buffer: Vec<u8>) -> Writer {
         buffer.clear();
         Writer { bytes: buffer }

@@ -1,4 +1,4 @@
-//! A clip's body as something to look at.
+//! A clip's body as capsules for pictures and files.
 
 use sinew_body::humanoid::{Node, Shape};
 use sinew_motion::Transform;

@@ -1,5 +1,5 @@
-//! Sinew makes animated characters answer to physics: pushed, they yield and recover in their own style; in a physical world they
-//! follow key poses, clips, scripts or a live performer, and reach for things.
+//! Sinew makes animated characters respond to physics: pushed, they yield and recover in their own style; in a physical
+//! world they follow key poses, clips, scripts or a live performer, and reach for things.
 //!
 //! This crate is the library in one: it re-exports the rooms, and [`jobs`] ties them together as the program `sinew` does.
 //!
@@ -18,8 +18,8 @@
 //! |---|---|
 //! | [`motion`] | skeletons, clips, motion files |
 //! | [`body`] | masses, limits, kinematics and dynamics |
-//! | [`response`] | a motion answers to pushes |
-//! | [`reach`] | somebody reaches a target: a source of poses |
+//! | [`response`] | the response of a motion to pushes |
+//! | [`reach`] | reaching for targets: a source of poses |
 //! | [`world`] | rigid bodies, ragdolls, props, contacts |
 //! | [`control`] | key poses, pose graphs, reflexes, trackers |
 //! | [`script`] | controllers in Python, in another process |

@@ -166,7 +166,7 @@ fn exceptions_in_start_and_step_stop_the_controller_alone() {
 #[test]
 fn text_that_never_comes_back_is_given_up() {
     let error = Script::start(impatient(), &info("while True: pass")).unwrap_err();
-    assert!(error.message.contains("did not come back"), "{error}");
+    assert!(error.message.contains("did not return"), "{error}");
 }
 
 #[test]
@@ -178,7 +178,7 @@ fn programs_that_are_no_host_are_told_from_one() {
     // One that never reads: the question is larger than any pipe.
     let host = ScriptHost { program: "/bin/sleep".into(), args: vec!["60".to_owned()], ..impatient() };
     let text = format!("# {}", "x".repeat(900_000));
-    assert!(Script::start(host, &info(&text)).unwrap_err().message.contains("did not come back"));
+    assert!(Script::start(host, &info(&text)).unwrap_err().message.contains("did not return"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What a motion file is and what Sinew makes of it.
+//! Inspection of a motion file.
 
 use serde::Serialize;
 use sinew_body::humanoid::{Node, Person, Reduction};
@@ -22,15 +22,15 @@ pub struct Inspection {
     pub duration_s: f64,
     /// Length of one file unit \[m\].
     pub unit_m: f64,
-    /// Standing height of the body \[m\]; null where it is none.
+    /// Standing height of the body \[m\]; null if it is not a human body.
     pub stature_m: Option<f64>,
-    /// Why the skeleton is no human body; null where it is one.
+    /// Why the skeleton is not a human body; null if it is one.
     pub no_body: Option<String>,
     /// The joints in the file's order.
     pub joints: Vec<JointReport>,
     /// Mass of each part of the person \[kg\].
     pub mass_kg: BTreeMap<String, f64>,
-    /// First and last frame of the gait cycle, from 0; null where nobody walks.
+    /// First and last frame of the gait cycle, from 0; null without a gait.
     pub cycle: Option<(usize, usize)>,
     /// Its duration \[s\].
     pub cycle_s: Option<f64>,
@@ -40,9 +40,9 @@ pub struct Inspection {
     pub floor_height_m: Option<f64>,
     /// The actuation spectrum of the upper body: root mean square torque along each direction \[N m\], descending.
     pub actuation_n_m: Vec<f64>,
-    /// How many of the 24 coordinates are quiet: use less than a hundredth of the largest torque.
+    /// Number of near-unactuated ("quiet") coordinates of the 24: they use less than a hundredth of the largest torque.
     pub quiet_coordinates: usize,
-    /// What is wrong with the data.
+    /// Defects of the data.
     pub defects: Vec<DefectReport>,
     /// What was guessed, repaired or lost in reading.
     pub notes: Vec<String>,
@@ -53,7 +53,7 @@ pub struct Inspection {
 pub struct JointReport {
     /// The file's name.
     pub name: String,
-    /// The body part, null for a joint that is none.
+    /// The body part; null for a joint without one.
     pub part: Option<String>,
     /// Whether the part was guessed from the skeleton's shape rather than read from the name.
     pub guessed: bool,
@@ -70,14 +70,14 @@ pub struct DefectReport {
     pub frames: Option<(usize, usize)>,
     /// The joint, where it is one.
     pub joint: Option<String>,
-    /// In words.
+    /// As text.
     pub text: String,
 }
 
 /// Coordinates that use less than this of the largest torque are quiet.
 const QUIET: f64 = 0.01;
 
-/// Looks at a file.
+/// Inspects a file.
 pub fn inspect(file: &MotionFile, person: Person) -> Inspection {
     let clip = &file.clip;
     let joints = clip.skeleton().joints();

@@ -27,7 +27,7 @@ pub fn sheet(reached: &Reached, title: &str) -> Sheet {
     }
 }
 
-/// The ends of many ways to the same target, one panel each.
+/// The final poses of many variations for the same target, one panel each.
 pub fn contact_sheet(all: &[Reached], title: &str) -> Sheet {
     let panels = all.iter().map(|reached| {
         let steps = &reached.report.steps;
@@ -50,7 +50,7 @@ pub fn contact_sheet(all: &[Reached], title: &str) -> Sheet {
     };
     Sheet {
         title: title.to_owned(),
-        subtitle: format!("the ends of {} ways", all.len()),
+        subtitle: format!("the ends of {} variations", all.len()),
         pieces: vec![strip.into()],
         ..Sheet::default()
     }
@@ -112,7 +112,7 @@ fn speeds(reached: &Reached) -> Plot {
         }
     }
     Plot {
-        title: "How fast hands, feet and hips go".to_owned(),
+        title: "Speed of hands, feet and hips".to_owned(),
         x_label: "time (s)".to_owned(),
         y_label: "speed (m/s)".to_owned(),
         series,

@@ -1,4 +1,4 @@
-//! The whole job of `sinew reach`: a target in; motion, report and picture out.
+//! The job of `sinew reach`: a target in; motion, report and picture out.
 
 mod draw;
 mod job;

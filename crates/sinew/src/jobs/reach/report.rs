@@ -1,13 +1,13 @@
-//! What came of a reach, in numbers.
+//! The report of a reach.
 
 use serde::Serialize;
 
 /// One reach in the report of `sinew reach` and `sinew run`. Keys carry their units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReachReport {
-    /// Whether the hand arrived and is there at the end, within 2 cm of a body that springs hold.
+    /// Whether the hand arrived and stays at its target, within 2 cm for a physically tracked body.
     pub reached: bool,
-    /// Why not, where it did not.
+    /// Why not, if it did not.
     pub reason: Option<String>,
     /// Which hands reached.
     pub hands: Vec<&'static str>,
@@ -21,15 +21,15 @@ pub struct ReachReport {
     pub twist_deg: f64,
     /// Swing of the spine φ \[degrees\], below 0 away from the target.
     pub swing_deg: f64,
-    /// How far the hips sink \[m\].
+    /// Squat depth \[m\].
     pub squat_m: f64,
-    /// How far the centre of mass stays inside the support polygon while both feet stand, at its least \[m\].
+    /// Minimum distance of the centre of mass inside the support polygon while both feet stand \[m\].
     pub com_margin_m: Option<f64>,
-    /// How far the toes of a planted foot move, at most \[m\].
+    /// Maximum displacement of the toes of a planted foot \[m\].
     pub planted_slip_m: f64,
-    /// Fastest that the hand goes \[m/s\].
+    /// Maximum speed of the hand \[m/s\].
     pub hand_speed_max_m_s: f64,
-    /// Where every random choice came from.
+    /// Seed of all random choices.
     pub seed: u64,
 }
 
@@ -40,7 +40,7 @@ pub struct StepReport {
     pub foot: &'static str,
     /// `half`: the other stays; `full`: it follows.
     pub kind: &'static str,
-    /// How far that foot goes \[m\].
+    /// Length of its stride \[m\].
     pub length_m: f64,
 }
 
@@ -48,7 +48,7 @@ pub struct StepReport {
 pub(super) const SIDES: [&str; 2] = ["left", "right"];
 
 impl ReachReport {
-    /// In a line of words.
+    /// As one line of text.
     pub fn words(&self) -> String {
         let steps: Vec<String> =
             self.steps.iter().map(|step| format!("{} {} {:.2} m", step.kind, step.foot, step.length_m)).collect();

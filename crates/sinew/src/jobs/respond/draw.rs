@@ -1,4 +1,4 @@
-//! The picture of an answer: what users judge the motion by.
+//! The picture of a response.
 
 use super::answer::Answer;
 use super::job::RespondJob;
@@ -155,7 +155,7 @@ fn plot(timeline: &Timeline, job: &RespondJob, from: f64, to: f64) -> Plot {
         Series::new(node.part().name(), rows.map(|(secs, angles)| (*secs, angles[node.index()].to_degrees())).collect())
     });
     Plot {
-        title: "How far each joint is from the same motion undisturbed".to_owned(),
+        title: "Deflection of each joint from the undisturbed motion".to_owned(),
         x_label: "time (s)".to_owned(),
         y_label: "deflection (°)".to_owned(),
         series: series.collect(),

@@ -1,4 +1,4 @@
-//! A clip answers to pushes: the whole job.
+//! The job of `sinew respond`: a clip and pushes in; motion, report and picture out.
 
 mod answer;
 mod draw;

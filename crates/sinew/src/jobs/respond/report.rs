@@ -1,4 +1,4 @@
-//! What happened, in numbers: the JSON of `--report`.
+//! The report of a response: the JSON of `--report`.
 
 use super::job::{Input, RespondJob};
 use glam::DVec3;
@@ -12,14 +12,14 @@ use std::collections::BTreeMap;
 /// A joint within this of the run without pushes has recovered \[rad\]: 2 degrees.
 pub(super) const RECOVERED: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
-/// What happened to a clip. Units are in the names.
+/// The report of a response. Units are in the names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RespondReport {
     /// The file answered.
     pub file: String,
     /// `robust`, `paper` or `literal`.
     pub preset: String,
-    /// How many coordinates applied dynamics.
+    /// Number of coordinates under dynamics.
     pub k: usize,
     /// `low` or `high`.
     pub coordinates: String,
@@ -39,18 +39,18 @@ pub struct RespondReport {
     pub pushes: Vec<PushReport>,
     /// The largest geodesic angle of every joint from the run without disturbances, over the whole clip \[deg\].
     pub peak_deflection_deg: BTreeMap<String, f64>,
-    /// How far the answer is from the input, in any joint, over the whole clip \[deg\].
+    /// Largest deviation of any joint from the input, over the whole clip \[deg\].
     pub largest_departure_deg: f64,
     /// From the end of the last disturbance until every joint stays within 2 degrees \[s\]; null if never, or if nothing
     /// disturbed.
     pub recovered_after_s: Option<f64>,
-    /// How far a stance ankle leaves the input's, in the ground's frame \[m\].
+    /// Largest deviation of a stance ankle from the input's, in the ground's frame \[m\].
     pub stance_deviation_max_m: f64,
     /// Whether every number of the answer is finite.
     pub finite: bool,
 }
 
-/// What one push did.
+/// The effect of one push.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PushReport {
     /// Where.
@@ -70,7 +70,7 @@ pub struct PushReport {
     pub peak_deflection_deg: BTreeMap<String, f64>,
     /// From the end of the push until every joint stays within 2 degrees, up to the next push \[s\]; null if never.
     pub recovered_after_s: Option<f64>,
-    /// How far a stance ankle leaves the input's, in the ground's frame, until the next push \[m\].
+    /// Largest deviation of a stance ankle from the input's, in the ground's frame, until the next push \[m\].
     pub stance_deviation_max_m: f64,
     /// Whether every number of the answer is finite.
     pub finite: bool,

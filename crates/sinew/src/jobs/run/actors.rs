@@ -1,4 +1,4 @@
-//! What came of live performers in a run.
+//! Statistics of live performers in a run.
 
 use serde::Serialize;
 use sinew_control::perform::PerformCounters;
@@ -6,14 +6,14 @@ use sinew_live::Performers;
 use sinew_stage::Stage;
 use std::collections::BTreeMap;
 
-/// One live performer. Samples that could not be read are among the rejected.
+/// One live performer. Malformed samples count as rejected.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ActorReport {
-    /// Samples that arrived, those that could not be read included.
+    /// Samples that arrived, malformed ones included.
     pub received: u64,
-    /// Of these, those that came when their time was over.
+    /// Of these, those that arrived too late to be used.
     pub late: u64,
-    /// Of these, those that were thrown out: duplicates, stale and bad ones.
+    /// Of these, those that the outlier filter rejected: duplicates, stale and invalid ones.
     pub rejected: u64,
     /// Those that never arrived, as far as is known.
     pub lost: u64,
@@ -21,15 +21,15 @@ pub struct ActorReport {
     pub lost_is_estimate: bool,
     /// From the arrival of a sample until a frame with it is out; null in a replay.
     pub latency_ms: Option<LatencyReport>,
-    /// How long samples are kept back at the end, to even out jitter and to have the next one \[ms\].
+    /// Delay of the jitter buffer at the end \[ms\].
     pub delay_ms: f64,
-    /// All fates.
+    /// All counters.
     pub counters: PerformCounters,
-    /// Datagrams or lines that could not be read.
+    /// Malformed datagrams or lines.
     pub malformed: u64,
-    /// Datagrams from somebody else.
+    /// Datagrams from another sender.
     pub foreign: u64,
-    /// Samples that came faster than the stage takes them.
+    /// Samples dropped because they arrived faster than the stage takes them.
     pub overflown: u64,
 }
 

@@ -1,26 +1,27 @@
-//! What was spent on a character from outside, summed up over a run.
+//! External forces on a character, summed over a run.
 
 use serde::Serialize;
 use sinew_body::humanoid::Node;
 use sinew_world::{CharacterFrame, ExternalForce, ExternalForces};
 use std::collections::BTreeMap;
 
-/// Force and power of a helper over a run. Keys carry their units.
+/// Force, power and work of external forces over a run. Keys carry their units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ExternalForceReport {
-    /// Mean size of its force \[N\].
+    /// Mean magnitude of the force \[N\].
     pub force_mean_n: f64,
-    /// Largest size of its force in a step \[N\].
+    /// Maximum magnitude of the force in a step \[N\].
     pub force_peak_n: f64,
-    /// Mean size of its power \[W\], whether it gives or takes.
+    /// Mean magnitude of the power \[W\], of either sign.
     pub power_mean_w: f64,
-    /// Largest size of its power in a step \[W\].
+    /// Maximum magnitude of the power in a step \[W\].
     pub power_peak_w: f64,
-    /// What it gave in all, less what it took \[J\].
+    /// Net work \[J\].
     pub work_j: f64,
 }
 
-/// Sums over the parts of a character: by part, and of the whole body under `all`. Parts that got nothing are not listed.
+/// Sums over the parts of a character: by part, and of the whole body under `all`. Parts without external forces are
+/// not listed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Meter {
     steps: u64,
@@ -45,7 +46,7 @@ impl ExternalForceReport {
 }
 
 impl Meter {
-    /// Adds a step; `of` says which helper is meant.
+    /// Adds a step; `of` selects the external force.
     pub fn watch(&mut self, character: &CharacterFrame, step_secs: f64, of: impl Fn(&ExternalForces) -> ExternalForce) {
         self.steps += 1;
         let (mut forces_n, mut powers_w) = (0.0, 0.0);

@@ -1,4 +1,4 @@
-//! `sinew run` and `sinew replay` as library calls: a stage runs, and what it showed goes into files and pictures.
+//! `sinew run` and `sinew replay` as library calls: a stage runs, and its motion goes into files and pictures.
 
 mod actors;
 mod draw;

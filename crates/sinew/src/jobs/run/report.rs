@@ -1,4 +1,4 @@
-//! What happened in a run, in numbers.
+//! The report of a run.
 
 use super::actors::{self, ActorReport};
 use super::external_force::{ExternalForceReport, Meter};
@@ -41,22 +41,22 @@ pub struct CharacterReport {
     pub hips_height_min_m: f64,
     /// Height of the hips at the end \[m\].
     pub hips_height_end_m: f64,
-    /// Where the centre of mass is at the end \[m\].
+    /// Position of the centre of mass at the end \[m\].
     pub centre_end_m: [f64; 3],
-    /// How far the centre of mass lies inside the support polygon at the end \[m\]; null in the air.
+    /// Distance of the centre of mass inside the support polygon at the end \[m\]; null in the air.
     pub com_margin_end_m: Option<f64>,
-    /// Times that a foot came down: a new contact of a foot with the ground after it was off for a while.
+    /// Number of foot contacts: new contacts of a foot with the ground after a swing phase.
     pub steps: u64,
-    /// Largest impulse of one touch by something else than the ground, in one physics step \[N s\].
+    /// Maximum impulse of a contact with anything except the ground, in one physics step \[N s\].
     pub hit_impulse_max_n_s: f64,
-    /// Times that it was put back because its body went wrong.
+    /// Number of resets because its body became invalid (not finite).
     pub resets: u64,
     /// Every reach, in order, the first thousand.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub reaches: Vec<ReachReport>,
-    /// What pins spent, by part, and all together under `all`; the weight that they carry included.
+    /// External forces of pins, by part, and of the whole body under `all`; the carried weight included.
     pub pins: BTreeMap<String, ExternalForceReport>,
-    /// What else held parts from outside: physics switched off, planes, holds on what does not move.
+    /// Other external forces: physics switched off, planes, attachments to fixed bodies.
     pub held: BTreeMap<String, ExternalForceReport>,
     #[serde(skip)]
     meters: [Meter; 2],

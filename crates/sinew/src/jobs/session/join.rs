@@ -1,4 +1,4 @@
-//! What somebody who has joined keeps of what they see.
+//! The report and recording of a client.
 
 use serde::Serialize;
 use sinew_live::session::{Client, ClientStats, ConnectionState, Role};

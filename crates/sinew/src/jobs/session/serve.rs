@@ -1,4 +1,4 @@
-//! A scene runs in real time for all who join.
+//! Serves a scene in real time to clients.
 
 use crate::jobs::run::{RunError, RunReport};
 use serde::Serialize;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// How a scene is to be served.
 #[derive(Clone, Debug, Default)]
 pub struct ServeJob {
-    /// For how long \[s\]; until somebody stops it when left out.
+    /// Duration \[s\]. Default: until it is stopped.
     pub for_secs: Option<f64>,
     /// How Python controllers are run; `None` refuses scenes that have any.
     pub host: Option<ScriptHost>,
@@ -36,18 +36,18 @@ pub struct ServeReport {
     /// As of a run.
     #[serde(flatten)]
     pub run: RunReport,
-    /// What came of all that arrived.
+    /// Statistics of the server.
     pub clients: ServerCounts,
-    /// Commands and keys of clients, with the steps of their arrival and of their obedience.
+    /// Commands and keys of clients, with the steps of their arrival and of their application.
     pub applied: Vec<AppliedCommand>,
-    /// Times that the machine fell so far behind the clock that time was given up.
+    /// Number of times that the machine fell so far behind real time that time was skipped.
     pub lapses: u64,
     /// Hash of single frames by step, to be compared with those in the reports of `sinew join`.
     pub hashes: BTreeMap<u64, String>,
 }
 
-/// Runs a scene at the pace of the clock until its time is over or somebody stops it. Commands that the observers
-/// give the stage before its steps go into the take.
+/// Runs a scene in real time until its duration is over or it is stopped. Commands that the observers give the stage
+/// before its steps go into the take.
 ///
 /// ```
 /// use sinew::jobs::session::{ServeJob, serve};
