@@ -42,7 +42,7 @@ pub fn run() -> Result<(), String> {
     };
     let programs = ["--bin", "sinew", "--example", "session_check", "--example", "relay"];
     let packages = ["--package", "sinew-cli", "--package", "sinew", "--package", "sinew-live"];
-    let features = ["--no-default-features", "--features", "sinew-cli/session"];
+    let features = ["--no-default-features", "--features", "sinew-cli/session,sinew/session"];
     command::run(command::cargo(&root, &["build"]).args(packages).args(features).args(programs))?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from).join("debug");
     let folder = std::env::temp_dir().join(format!("sinew-hosts-{}", std::process::id()));
