@@ -227,7 +227,7 @@ pub enum Action {
         /// How long the change takes \[s\]; half a second when left out.
         #[serde(default)]
         fade_secs: Option<f64>,
-        /// For how long, then as the scene says \[s\]; until changed again when left out.
+        /// For how long, then as before \[s\]; until changed again when left out.
         #[serde(default)]
         for_secs: Option<f64>,
     },
@@ -257,7 +257,7 @@ pub enum Action {
         /// How long the change takes \[s\]; half a second when left out.
         #[serde(default)]
         fade_secs: Option<f64>,
-        /// For how long, then as the scene says \[s\]; until changed again when left out.
+        /// For how long, then as before \[s\]; until changed again when left out.
         #[serde(default)]
         for_secs: Option<f64>,
     },
@@ -347,6 +347,21 @@ pub enum Layer {
 
 fn yes() -> bool {
     true
+}
+
+impl Action {
+    /// Whether it is for the stage, its props, joints and controllers, whichever character is named beside it.
+    pub fn is_for_stage(&self) -> bool {
+        matches!(
+            self,
+            Action::Place { .. }
+                | Action::Accelerate { .. }
+                | Action::Motor { .. }
+                | Action::Cut { .. }
+                | Action::Reload { .. }
+                | Action::ScriptKilled { .. }
+        )
+    }
 }
 
 impl Command {

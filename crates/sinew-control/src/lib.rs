@@ -30,6 +30,7 @@ pub mod ik;
 mod order_error;
 pub mod perform;
 pub mod pose;
+pub mod range;
 mod reach_order;
 pub mod reflex;
 pub mod source;

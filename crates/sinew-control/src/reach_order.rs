@@ -1,5 +1,6 @@
 //! A reach as text: the same keys in a scene's source and in a command.
 
+use crate::{OrderError, OrderErrorKind, range};
 use serde::{Deserialize, Serialize};
 
 /// Which hand reaches.
@@ -71,35 +72,39 @@ impl ReachOrder {
     /// Checks it by itself: one kind of target, numbers in range.
     ///
     /// # Errors
-    /// What is wrong and what to do.
-    pub fn check(&self) -> Result<(), String> {
+    /// [`OrderErrorKind::Contradiction`], [`OrderErrorKind::OutOfRange`] or [`OrderErrorKind::TooLarge`].
+    pub fn check(&self) -> Result<(), OrderError> {
+        let contradiction = |problem: String| Err(OrderError::new(OrderErrorKind::Contradiction, problem));
         let pair = self.left_m.is_some() || self.right_m.is_some();
         let kinds = usize::from(self.object.is_some()) + usize::from(self.target_m.is_some()) + usize::from(pair);
         if kinds != 1 {
-            return Err(format!(
+            return contradiction(format!(
                 "{kinds} of object, target_m and the pair left_m, right_m are stated; keep exactly one"
             ));
         }
         if self.hand == ReachHand::Both && self.object.is_none() {
-            return Err("both hands reach for an object, or for left_m and right_m; state one of them".to_owned());
+            return contradiction(
+                "both hands reach for an object, or for left_m and right_m; state one of them".to_owned(),
+            );
         }
         if self.grasp && self.object.is_none() {
-            return Err("only an object can be held; add object, or remove grasp".to_owned());
+            return contradiction("only an object can be held; add object, or remove grasp".to_owned());
         }
         let points = [self.target_m, self.left_m, self.right_m];
-        if points.iter().flatten().flatten().any(|value| !(-1e4..=1e4).contains(value)) {
-            return Err("a point is out of range; give metres, at most 10000".to_owned());
+        if !points.iter().flatten().flatten().all(|value| range::REACH_M.contains(*value)) {
+            let problem = "a point is out of range; give metres, at most 10000";
+            return Err(OrderError::new(OrderErrorKind::OutOfRange, problem));
         }
-        let within = |name: &str, value: f64, from: f64, to: f64| {
-            if (from..=to).contains(&value) {
-                Ok(())
-            } else {
-                Err(format!("{name} of {value} is out of range {from} to {to}"))
-            }
-        };
-        within("flexibility", self.flexibility, 0.25, 4.0)?;
-        within("speed_m_s", self.speed_m_s.unwrap_or(1.0), 0.05, 10.0)?;
-        within("time_secs", self.time_secs.unwrap_or(1.0), 0.2, 600.0)?;
-        within("the number of objects in avoid", self.avoid.len() as f64, 0.0, 64.0)
+        range::REACH_FLEXIBILITY.check("flexibility", self.flexibility)?;
+        range::REACH_SPEED_M_S.check_some("speed_m_s", self.speed_m_s)?;
+        range::REACH_SECS.check_some("time_secs", self.time_secs)?;
+        if self.avoid.len() > MAX_AVOIDED {
+            let problem = format!("avoid lists {} objects; keep at most {MAX_AVOIDED}", self.avoid.len());
+            return Err(OrderError::new(OrderErrorKind::TooLarge, problem));
+        }
+        Ok(())
     }
 }
+
+/// Objects that the arms keep clear of.
+const MAX_AVOIDED: usize = 64;

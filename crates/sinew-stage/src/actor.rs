@@ -117,6 +117,16 @@ impl Actor {
         self.has_layer(Layer::Scripts) && !is_off
     }
 
+    /// Factor on the stiffness of a part's joint, or of all.
+    pub fn gain(&self, node: Option<Node>) -> f64 {
+        node.map_or(self.global_gain, |node| self.joint_gain[node.index()])
+    }
+
+    /// Whether a reflex is selected.
+    pub fn has_reflex(&self, name: &str) -> bool {
+        self.reflexes.iter().any(|(reflex, on)| *on && reflex.name() == name)
+    }
+
     pub(crate) fn set_gain(&mut self, node: Option<Node>, factor: f64) {
         match node {
             Some(node) => self.joint_gain[node.index()] = factor,

@@ -31,7 +31,7 @@ impl Stage {
         index: CharacterId,
         order: &ReachOrder,
     ) -> Result<Option<CharacterEffect>, String> {
-        order.check()?;
+        order.check().map_err(|error| error.to_string())?;
         let style = Style {
             flexibility: order.flexibility,
             speed_m_s: order.speed_m_s.filter(|_| order.time_secs.is_none()),

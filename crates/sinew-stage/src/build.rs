@@ -19,10 +19,28 @@ use sinew_world::{Entity, PropJointKind, PropJointSpec, Surface, World, hips_ove
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// What kind of trouble a [`StageError`] is, for a program to match on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum StageErrorKind {
+    /// A clip cannot be read, or holds no body.
+    Clip,
+    /// A pose or a graph does not suit a body.
+    Pose,
+    /// A body, prop or joint that physics cannot have.
+    Body,
+    /// What the scene begins with is refused: a tracker, a reflex, a reach, a command.
+    Refused,
+    /// A Python controller does not start.
+    Script,
+}
+
 /// Why a scene cannot be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}: {place}: {problem}")]
 pub struct StageError {
+    /// What kind of trouble it is.
+    pub kind: StageErrorKind,
     /// The scene file.
     pub file: String,
     /// Which of its tables.
@@ -31,6 +49,8 @@ pub struct StageError {
     pub problem: String,
 }
 
+use StageErrorKind as Kind;
+
 /// What reading a character's body gives.
 struct Cut {
     body: Body,
@@ -38,23 +58,26 @@ struct Cut {
 }
 
 pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<Vec<Actor>, StageError> {
-    let wrong = |place: String, problem: String| StageError { file: scene.file_name().to_owned(), place, problem };
+    let wrong = |kind, place: String, problem: String| {
+        let file = scene.file_name().to_owned();
+        StageError { kind, file, place, problem }
+    };
     for (name, prop) in &scene.props {
         let place = || format!("props.{name}");
-        let spec = prop.in_world().ok_or_else(|| wrong(place(), "it has no shape".to_owned()))?;
-        world.add_prop(spec).map_err(|error| wrong(place(), error.to_string()))?;
+        let spec = prop.in_world().ok_or_else(|| wrong(Kind::Body, place(), "it has no shape".to_owned()))?;
+        world.add_prop(spec).map_err(|error| wrong(Kind::Body, place(), error.to_string()))?;
     }
     let mut actors = Vec::new();
     for (name, spec) in &scene.characters {
         let place = || format!("characters.{name}");
-        let cut = cut(scene, spec).map_err(|problem| wrong(place(), problem))?;
+        let cut = cut(scene, spec).map_err(|problem| wrong(Kind::Clip, place(), problem))?;
         let specs: &BTreeMap<String, PoseSpec> = &scene.poses;
         let poses = resolve_poses(specs, &cut.body)
-            .map_err(|error| wrong("poses".to_owned(), format!("on the body of {name}: {error}")))?;
+            .map_err(|error| wrong(Kind::Pose, "poses".to_owned(), format!("on the body of {name}: {error}")))?;
         let mut graphs = BTreeMap::new();
         for (graph, spec) in &scene.graphs {
             let resolved = Graph::new(spec, &poses, cast);
-            let resolved = resolved.map_err(|error| wrong(format!("graphs.{graph}"), error.to_string()))?;
+            let resolved = resolved.map_err(|error| wrong(Kind::Pose, format!("graphs.{graph}"), error.to_string()))?;
             graphs.insert(graph.clone(), resolved);
         }
         let joints = joint_gains(spec);
@@ -70,7 +93,7 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
             velocity: spec.velocity_m_s.into(),
             surface,
         };
-        let id = world.add_character(in_world).map_err(|error| wrong(place(), error.to_string()))?;
+        let id = world.add_character(in_world).map_err(|error| wrong(Kind::Body, place(), error.to_string()))?;
         if spec.spin_rad_s != [0.0; 3] {
             world.spin_character(id, spec.spin_rad_s.into());
         }
@@ -103,6 +126,7 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
 fn fasten(scene: &Scene, cast: &Cast, world: &mut World) -> Result<(), StageError> {
     for (name, spec) in &scene.joints {
         let wrong = |problem: String| StageError {
+            kind: Kind::Body,
             file: scene.file_name().to_owned(),
             place: format!("joints.{name}"),
             problem,
@@ -127,6 +151,7 @@ fn fasten(scene: &Scene, cast: &Cast, world: &mut World) -> Result<(), StageErro
     }
     for (name, rope) in &scene.ropes {
         let wrong = |problem: String| StageError {
+            kind: Kind::Body,
             file: scene.file_name().to_owned(),
             place: format!("ropes.{name}"),
             problem,
@@ -161,6 +186,7 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
     for (at, (name, spec)) in scene.characters.iter().enumerate() {
         let id = stage.actors[at].id;
         let wrong = |problem: String| StageError {
+            kind: Kind::Refused,
             file: scene.file_name().to_owned(),
             place: format!("characters.{name}"),
             problem,
@@ -195,15 +221,18 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
             stage.note(Cause::SceneStart, Effect::of(name, effect));
         }
         if let Some(controller) = &spec.controller {
-            stage.start_controller(id, controller).map_err(wrong)?;
+            stage
+                .start_controller(id, Some(controller))
+                .map_err(|error| StageError { kind: Kind::Script, ..wrong(error.to_string()) })?;
         }
     }
     for (name, spec) in &scene.props {
         let (Some(controller), Some(prop)) = (&spec.controller, stage.cast.prop(name)) else { continue };
-        stage.start_prop_controller(prop, controller).map_err(|problem| StageError {
+        stage.start_prop_controller(prop, controller).map_err(|error| StageError {
+            kind: Kind::Script,
             file: scene.file_name().to_owned(),
             place: format!("props.{name}"),
-            problem,
+            problem: error.to_string(),
         })?;
     }
     Ok(())
@@ -213,6 +242,7 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
 pub(crate) fn bodies(scene: &Scene) -> Result<Vec<Body>, StageError> {
     let body = |(name, spec): (&String, &CharacterSpec)| {
         cut(scene, spec).map(|cut| cut.body).map_err(|problem| StageError {
+            kind: Kind::Clip,
             file: scene.file_name().to_owned(),
             place: format!("characters.{name}"),
             problem,

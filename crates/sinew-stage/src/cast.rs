@@ -1,6 +1,6 @@
 //! The cast: characters, props and joints of a stage, by name.
 
-use crate::scene::Scene;
+use crate::scene::{JointKind, SceneSpec};
 use sinew_body::humanoid::Node;
 use sinew_control::graph::{Names, Touchable};
 use sinew_world::{CharacterId, Entity, PropId, PropJointId};
@@ -12,6 +12,8 @@ pub struct Cast {
     characters: Vec<String>,
     props: Vec<String>,
     joints: Vec<String>,
+    /// By joint.
+    hinges: Vec<bool>,
     /// By character: alias, part.
     aliases: Vec<BTreeMap<String, Node>>,
 }
@@ -21,7 +23,7 @@ pub const GROUND: &str = "ground";
 
 impl Cast {
     /// The cast of a scene.
-    pub fn of(scene: &Scene) -> Cast {
+    pub fn of(scene: &SceneSpec) -> Cast {
         let aliases = |character: &crate::scene::CharacterSpec| {
             character.aliases.keys().filter_map(|alias| Some((alias.clone(), character.node(alias)?))).collect()
         };
@@ -29,6 +31,7 @@ impl Cast {
             characters: scene.characters.keys().cloned().collect(),
             props: scene.props.keys().cloned().collect(),
             joints: scene.joints.keys().cloned().collect(),
+            hinges: scene.joints.values().map(|joint| joint.kind == JointKind::Hinge).collect(),
             aliases: scene.characters.values().map(aliases).collect(),
         }
     }
@@ -66,6 +69,16 @@ impl Cast {
     /// The joint of this name.
     pub fn joint(&self, name: &str) -> Option<PropJointId> {
         self.joints.iter().position(|known| known == name).map(PropJointId::first_in)
+    }
+
+    /// The name of a joint; empty for one that is not there.
+    pub fn joint_name(&self, joint: PropJointId) -> &str {
+        self.joints.get(joint.slot()).map_or("", String::as_str)
+    }
+
+    /// Whether a joint is a hinge, and not a slider or another joint.
+    pub fn is_hinge(&self, joint: PropJointId) -> bool {
+        self.hinges.get(joint.slot()).is_some_and(|is_hinge| *is_hinge)
     }
 
     /// A part of a character, by its VRM name or an alias.

@@ -44,6 +44,15 @@ impl Stage {
         }
     }
 
+    /// The factor on gravity that something has, or comes to, apart from what ends by itself.
+    pub(crate) fn scale_without_timed(&self, what: Weighs) -> f64 {
+        let fade = self.timed_effects.fades.iter().find(|fade| fade.what == what).map(|fade| fade.to);
+        self.timed_effects.gravity_at_end(what).or(fade).unwrap_or_else(|| match what {
+            Weighs::Part(character, node) => self.world.part_gravity(character, node),
+            Weighs::Prop(prop) => self.world.prop_gravity(prop),
+        })
+    }
+
     /// What is on its way goes on by a step.
     pub(crate) fn fade_on(&mut self, step: u64) {
         if self.timed_effects.fades.is_empty() {

@@ -28,18 +28,17 @@
 //! What it does not do: pictures, sockets, the command line. Python runs in another process, whose program the caller names.
 
 mod actor;
-mod apply_command;
-mod apply_grasp;
-mod apply_kd;
+mod apply;
 mod apply_reach;
-mod apply_to_stage;
 mod basis;
 mod build;
 mod cast;
+mod edit;
 mod event;
 mod fade;
 mod heading;
 mod motion_source;
+pub mod order;
 mod pacer;
 mod reach_aim;
 mod reach_through;
@@ -59,13 +58,15 @@ mod timeline;
 
 pub use actor::Actor;
 pub use apply_reach::ReachNow;
-pub use build::StageError;
+pub use build::{StageError, StageErrorKind};
 pub use cast::Cast;
-pub use event::{Cause, CharacterEffect, Effect, Event, Events, ReachTarget, ShapeChoice};
+pub use edit::{EditOutcome, Edited};
+pub use event::{Cause, CharacterEffect, Effect, Event, Events, ReachTarget};
+pub use order::Order;
 pub use pacer::Pacer;
 pub use recording::{RecordedCharacter, RecordedProp, Recording};
 pub use runner::{Finished, Observer, Runner};
-pub use scene::{Scene, SceneError, scene_schema};
+pub use scene::{Scene, SceneError, SceneErrorKind, scene_schema};
 pub use stage::Stage;
-pub use take::{Take, TakeError};
+pub use take::{Take, TakeError, TakeErrorKind};
 pub use timeline::{KnownTake, SeekError, Timeline};

@@ -2,9 +2,10 @@
 
 use crate::cast::Cast;
 use crate::event::Cause;
+use crate::order::{Order, Resolver};
 use crate::scene::Scene;
 use crate::step::step_of;
-use sinew_control::Command;
+use sinew_control::OrderError;
 use sinew_control::graph::Touchable;
 use sinew_world::Frame;
 
@@ -17,7 +18,7 @@ struct Waiting {
     line: usize,
     /// The two as the scene names them.
     names: [String; 2],
-    command: Command,
+    order: Order,
     /// Steps until it may fire again; `None` for never.
     repeat_after: Option<u64>,
     /// The first step in which it may fire; `None` when it is done.
@@ -25,24 +26,28 @@ struct Waiting {
 }
 
 impl Reactions {
-    pub fn of(scene: &Scene, cast: &Cast) -> Reactions {
+    pub fn of(scene: &Scene, cast: &Cast) -> Result<Reactions, OrderError> {
         let step_secs = scene.stage.world_settings().step_secs();
-        let list = scene.when.iter().filter_map(|reaction| {
+        let resolver = Resolver { scene, cast };
+        let mut list = Vec::new();
+        for reaction in &scene.when {
             let [one, other] = &reaction.touching;
-            Some(Waiting {
-                touching: [cast.meaning(one, None)?, cast.meaning(other, None)?],
+            // The scene was checked: both are there.
+            let (Some(one), Some(other)) = (cast.meaning(one, None), cast.meaning(other, None)) else { continue };
+            list.push(Waiting {
+                touching: [one, other],
                 line: reaction.line,
                 names: reaction.touching.clone(),
-                command: reaction.command.clone(),
+                order: resolver.resolve(&reaction.command)?,
                 repeat_after: reaction.repeat_after_secs.map(|secs| step_of(secs, step_secs).max(1)),
                 ready_at: Some(0),
-            })
-        });
-        Reactions { list: list.collect() }
+            });
+        }
+        Ok(Reactions { list })
     }
 
-    /// Commands of those whose touch begins, with the cause.
-    pub fn fired(&mut self, frame: &Frame, cast: &Cast) -> Vec<(Command, Cause)> {
+    /// Orders of those whose touch begins, with the cause.
+    pub fn fired(&mut self, frame: &Frame, cast: &Cast) -> Vec<(Order, Cause)> {
         let mut fired = Vec::new();
         for waiting in &mut self.list {
             if waiting.ready_at.is_none_or(|step| step > frame.step) {
@@ -59,7 +64,7 @@ impl Reactions {
                     touching: waiting.names.clone(),
                     touched: [touch.a, touch.b].map(|thing| cast.name_of(thing)),
                 };
-                fired.push((waiting.command.clone(), cause));
+                fired.push((waiting.order.clone(), cause));
             }
         }
         fired

@@ -4,7 +4,7 @@ use crate::Stage;
 use crate::event::{Cause, Effect};
 use crate::scene::JointKind;
 use crate::script_snapshot::{names, snapshot};
-use sinew_control::{Action, Command};
+use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 use sinew_script::{Script, StartInfo};
 use sinew_world::{CharacterId, PropId};
 
@@ -23,29 +23,18 @@ pub(crate) struct Running {
 }
 
 impl Stage {
-    /// Starts a controller of the scene for a character, in place of the one it has; with an empty name stops that one.
-    pub(crate) fn start_controller(&mut self, character: CharacterId, name: &str) -> Result<(), String> {
-        if name.is_empty() {
-            self.actors[character.slot()].script = None;
-            return Ok(());
-        }
-        let own = self.cast.characters()[character.slot()].clone();
-        self.actors[character.slot()].script = Some(self.start_script(name, own)?);
-        Ok(())
-    }
-
     /// Starts a controller of the scene for a prop.
-    pub(crate) fn start_prop_controller(&mut self, prop: PropId, name: &str) -> Result<(), String> {
+    pub(crate) fn start_prop_controller(&mut self, prop: PropId, name: &str) -> Result<(), OrderError> {
         let own = self.cast.props()[prop.slot()].clone();
         let running = self.start_script(name, own)?;
         self.prop_scripts.insert(prop, running);
         Ok(())
     }
 
-    fn start_script(&self, name: &str, own: String) -> Result<Running, String> {
-        let known = || self.scene.controllers.keys().cloned().collect::<Vec<_>>().join(", ");
+    pub(crate) fn start_script(&self, name: &str, own: String) -> Result<Running, OrderError> {
+        let failed = |problem: String| OrderError::new(OrderErrorKind::Script, problem);
         let spec = self.scene.controllers.get(name);
-        let spec = spec.ok_or_else(|| format!("no controller `{name}`; there are {}", known()))?;
+        let spec = spec.ok_or_else(|| failed(format!("the scene has no controller `{name}` any more")))?;
         let source = self.scene.controller_text(name).unwrap_or_default().to_owned();
         let info = StartInfo {
             source,
@@ -55,8 +44,8 @@ impl Stage {
             seed: self.scene.stage.seed,
             names: names(&self.scene, &self.cast),
         };
-        let host = self.host.clone().ok_or("this program runs no Python controllers")?;
-        let script = Script::start(host, &info).map_err(|error| error.to_string())?;
+        let host = self.host.clone().ok_or_else(|| failed("this program runs no Python controllers".to_owned()))?;
+        let script = Script::start(host, &info).map_err(|error| failed(error.to_string()))?;
         Ok(Running { name: name.to_owned(), script })
     }
 
@@ -83,7 +72,7 @@ impl Stage {
     }
 
     /// Reads a controller's text again, for everything that it runs.
-    pub(crate) fn reload(&mut self, name: &str, text: Option<&str>) -> Result<Effect, String> {
+    pub(crate) fn reload(&mut self, name: &str, text: Option<&str>) -> Result<Effect, OrderError> {
         let text = match text {
             Some(text) => text.to_owned(),
             None => self.scene.controller_text_again(name)?,
@@ -97,12 +86,14 @@ impl Stage {
         let mut count = 0;
         for owner in self.owners() {
             if let Some(running) = self.running(owner).filter(|running| running.name == name) {
-                running.script.reload(&text).map_err(|error| format!("{error}; the old text goes on"))?;
+                running.script.reload(&text).map_err(|error| {
+                    OrderError::new(OrderErrorKind::Script, format!("{error}; the old text goes on"))
+                })?;
                 count += 1;
             }
         }
         if count == 0 {
-            return Err(format!("nothing is run by `{name}`"));
+            return Err(OrderError::new(OrderErrorKind::WrongState, format!("nothing is run by `{name}`")));
         }
         Ok(Effect::Reloaded { controller: name.to_owned() })
     }
@@ -136,7 +127,7 @@ impl Stage {
                 self.note(Cause::Print { controller: name.clone() }, Effect::Printed { line });
             }
             for command in outcome.commands {
-                self.apply(&command, Cause::Script { controller: name.clone() });
+                self.carry_out_command(&command, Cause::Script { controller: name.clone() });
             }
             if let Some(error) = outcome.error {
                 self.note(Cause::Script { controller: name.clone() }, Effect::ScriptFailed { error });
@@ -163,5 +154,24 @@ impl Stage {
             self.note(Cause::Script { controller: name }, effect);
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::event::{Cause, Effect};
+    use crate::{Scene, Stage};
+    use sinew_control::{Action, Command, OrderErrorKind};
+
+    #[test]
+    fn a_script_may_state_no_gain_that_a_scene_may_not() {
+        let mut stage = Stage::new(Scene::from_text("format = 1\n[characters.one]").unwrap(), None).unwrap();
+        let cause = Cause::Script { controller: "Limp".to_owned() };
+        stage.carry_out_command(&Command::to("one", Action::Gain { factor: 1e30, part: None }), cause.clone());
+        let event = &stage.events().list()[0];
+        assert_eq!(event.cause, cause);
+        let Effect::Refused(error) = &event.effect else { panic!("it is refused: {}", event.effect) };
+        assert_eq!(error.kind(), OrderErrorKind::OutOfRange);
+        assert_eq!(stage.actors[0].gain(None), 1.0);
     }
 }

@@ -4,18 +4,19 @@
 //! poses and graphs → reflexes → trackers → the world → the frame. What a layer senses is the frame of the step before.
 
 use crate::actor::Actor;
-use crate::build::{self, StageError};
+use crate::build::{self, StageError, StageErrorKind};
 use crate::cast::Cast;
 use crate::event::{Cause, CharacterEffect, Effect, Event, Events};
+use crate::order::{Order, Resolver, ShapeChoice, Undo};
 use crate::reaction::Reactions;
 use crate::run_hash::RunHash;
-use crate::scene::Scene;
+use crate::scene::{KeyBinding, Scene};
 use crate::scripts::Running;
 use crate::step::step_of;
 use crate::take::{self, Stamped};
 use crate::timed_effect::TimedEffects;
 use sinew_body::humanoid::Node;
-use sinew_control::{Action, Command, OrderError, OrderErrorKind};
+use sinew_control::{Action, Command, OrderError};
 use sinew_script::ScriptHost;
 use sinew_world::{CharacterId, Frame, PartShape, PropId, PropJointId, World};
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,7 +30,7 @@ pub struct Stage {
     pub(crate) actors: Vec<Actor>,
     pub(crate) timed_effects: TimedEffects,
     /// Shapes that parts have in place of their own.
-    pub(crate) shapes: BTreeMap<(CharacterId, Node), PartShape>,
+    pub(crate) shapes: BTreeMap<(CharacterId, Node), (ShapeChoice, PartShape)>,
     pub(crate) events: Events,
     pub(crate) host: Option<ScriptHost>,
     /// Commands that came from outside, with the steps in which they were applied.
@@ -42,10 +43,16 @@ pub struct Stage {
     pub(crate) broken: BTreeSet<PropJointId>,
     /// Controllers of props.
     pub(crate) prop_scripts: BTreeMap<PropId, Running>,
-    /// Commands for the next step.
-    inbox: Vec<Command>,
+    /// Commands for the next step, each with whether it is worth undoing.
+    inbox: Vec<(Command, bool)>,
+    /// What runs of an edited text, when one was given; else what runs is the scene's own.
+    pub(crate) running: Option<toml::Table>,
+    /// The scene's key bindings, as edited.
+    pub(crate) keys: Vec<KeyBinding>,
+    /// How commands from outside are taken back, the newest last.
+    history: Vec<Vec<Order>>,
     /// The scene's own commands that are still to come, the next one last.
-    timed: Vec<(u64, usize, Command)>,
+    timed: Vec<(u64, usize, Order)>,
     hash: RunHash,
 }
 
@@ -72,15 +79,23 @@ impl Stage {
         let mut world = World::new(scene.stage.world_settings());
         let actors = build::populate(&scene, &cast, &mut world)?;
         let step_secs = world.settings().step_secs();
-        let mut timed: Vec<(u64, usize, Command)> = scene
-            .at
-            .iter()
-            .map(|timed| (step_of(timed.at_secs, step_secs), timed.line, timed.command.clone()))
-            .collect();
+        let wrong = |list: &str, error: OrderError| StageError {
+            kind: StageErrorKind::Refused,
+            file: scene.file_name().to_owned(),
+            place: list.to_owned(),
+            problem: error.to_string(),
+        };
+        let resolver = Resolver { scene: &scene, cast: &cast };
+        let mut timed = Vec::new();
+        for one in &scene.at {
+            let order = resolver.resolve(&one.command).map_err(|error| wrong("at", error))?;
+            timed.push((step_of(one.at_secs, step_secs), one.line, order));
+        }
         // Those of one step keep the file's order; the next one lies at the end.
         timed.sort_by_key(|(step, ..)| *step);
         timed.reverse();
-        let reactions = Reactions::of(&scene, &cast);
+        let reactions = Reactions::of(&scene, &cast).map_err(|error| wrong("when", error))?;
+        let keys = scene.keys.clone();
         let mut stage = Stage {
             scene,
             cast,
@@ -97,6 +112,9 @@ impl Stage {
             broken: BTreeSet::new(),
             prop_scripts: BTreeMap::new(),
             inbox: Vec::new(),
+            history: Vec::new(),
+            running: None,
+            keys,
             timed,
             hash: RunHash::new(),
         };
@@ -108,19 +126,37 @@ impl Stage {
     /// events as refused, with the reason, and does nothing else.
     pub fn command(&mut self, command: Command) {
         if self.inbox.len() < MAX_INBOX {
-            self.inbox.push(command);
+            self.inbox.push((command, true));
         }
+    }
+
+    /// Takes back the newest command from outside that can be taken back and was not yet, at the beginning of the next step, by
+    /// commands that are recorded as any others. False when there is none: pushes, cuts and words cannot be taken back.
+    ///
+    /// ```
+    /// use sinew_control::{Action, Command};
+    /// use sinew_stage::{Scene, Stage};
+    /// let mut stage = Stage::new(Scene::from_text("format = 1\n[characters.one]")?, None)?;
+    /// stage.command(Command::to("one", Action::Gain { factor: 0.25, part: None }));
+    /// stage.step();
+    /// assert!(stage.undo());
+    /// stage.step();
+    /// let one = stage.cast().character("one").ok_or("it is there")?;
+    /// assert_eq!(stage.state_of(one).ok_or("it is there")?.gain(None), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn undo(&mut self) -> bool {
+        let Some(orders) = self.history.pop() else { return false };
+        for order in orders {
+            self.inbox.push((order.to_command(&self.cast), false));
+        }
+        true
     }
 
     /// Commands bound to a key of the scene; applied at the beginning of the next step. Returns whether there are any.
     pub fn press(&mut self, key: &str) -> bool {
-        let bound: Vec<Command> = self
-            .scene
-            .keys
-            .iter()
-            .filter(|binding| binding.key == key)
-            .map(|binding| binding.command.clone())
-            .collect();
+        let bound: Vec<Command> =
+            self.keys.iter().filter(|binding| binding.key == key).map(|binding| binding.command.clone()).collect();
         let any = !bound.is_empty();
         for command in bound {
             self.command(command);
@@ -131,32 +167,34 @@ impl Stage {
     /// One physics step.
     pub fn step(&mut self) {
         let step = self.world.frame().step;
-        for ending in self.timed_effects.take_due(step) {
-            self.end(&ending);
-        }
-        while let Some((_, line, command)) = self.timed.pop_if(|(at, ..)| *at <= step) {
-            self.apply(&command, Cause::Timeline { line });
+        self.end_timed_effects(step);
+        while let Some((_, line, order)) = self.timed.pop_if(|(at, ..)| *at <= step) {
+            self.carry_out(&order, Cause::Timeline { line });
         }
         let prescribed = take::due(self.prescribed.as_deref().unwrap_or_default(), step);
         let prescribed = prescribed.iter().filter(|one| !matches!(one.command.action, Action::ScriptKilled { .. }));
-        self.inbox.extend(prescribed.map(|stamped| stamped.command.clone()));
-        for command in std::mem::take(&mut self.inbox) {
+        self.inbox.extend(prescribed.map(|stamped| (stamped.command.clone(), false)));
+        for (command, is_undoable) in std::mem::take(&mut self.inbox) {
             // What is refused here is not recorded: a take holds only what it can give again.
-            match self.scene.check_command(&command) {
-                Ok(()) => {
-                    if self.records {
-                        self.record.push(Stamped { step, command: command.clone() });
-                    }
-                    self.apply(&command, Cause::Command);
-                }
-                Err(problem) => {
-                    let error = OrderError::new(OrderErrorKind::WrongState, problem);
+            let order = match self.resolve(&command) {
+                Ok(order) => order,
+                Err(error) => {
                     self.note(Cause::Command, Effect::Refused(error));
+                    continue;
                 }
+            };
+            if self.records {
+                self.record.push(Stamped { step, command });
+            }
+            let undo = self.carry_out(&order, Cause::Command);
+            if let Undo::Orders(orders) = undo
+                && is_undoable
+            {
+                self.remember(orders);
             }
         }
-        for (command, cause) in self.reactions.fired(self.world.frame(), &self.cast) {
-            self.apply(&command, cause);
+        for (order, cause) in self.reactions.fired(self.world.frame(), &self.cast) {
+            self.carry_out(&order, cause);
         }
         self.step_scripts(step);
         self.step_actors();
@@ -211,7 +249,7 @@ impl Stage {
 
     /// The shape that a command has given to a part of a character in place of its own.
     pub fn shape_in_place_of_own(&self, character: CharacterId, node: Node) -> Option<&PartShape> {
-        self.shapes.get(&(character, node))
+        self.shapes.get(&(character, node)).map(|(_, shape)| shape)
     }
 
     /// The scene that it was made from.
@@ -242,6 +280,13 @@ impl Stage {
     /// Which tracker, pose, graph state and layers a character has now.
     pub fn state_of(&self, character: CharacterId) -> Option<&Actor> {
         self.actors.get(character.slot())
+    }
+
+    fn remember(&mut self, orders: Vec<Order>) {
+        if self.history.len() == MAX_HISTORY {
+            self.history.remove(0);
+        }
+        self.history.push(orders);
     }
 
     pub(crate) fn note(&mut self, cause: Cause, effect: Effect) {
@@ -292,6 +337,9 @@ impl Stage {
         }
     }
 }
+
+/// Commands that are remembered for undo.
+const MAX_HISTORY: usize = 1_000;
 
 /// Commands that may wait for a step.
 const MAX_INBOX: usize = 10_000;

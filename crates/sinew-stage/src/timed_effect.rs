@@ -1,36 +1,9 @@
-//! Things that last for a time: what is to be undone, and when.
+//! Things that last for a time: the orders that take them back, and when.
 
-use crate::fade::Fade;
+use crate::fade::{Fade, Weighs};
+use crate::order::{CharacterOrder, Order, StageOrder};
 use glam::DVec3;
-use sinew_body::humanoid::Node;
-use sinew_world::{CharacterId, Entity, PropId};
-
-/// What ends.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Expiry {
-    /// Forces on a part are switched on again.
-    ForcesOff(CharacterId, Node),
-    /// A character is freed from its plane.
-    Plane(CharacterId),
-    /// A character's gravity goes back to its scale in the scene.
-    Gravity(CharacterId),
-    /// Gravity on a part goes back to the character's scale in the scene.
-    PartGravity(CharacterId, Node),
-    /// A prop's gravity goes back to its scale in the scene.
-    PropGravity(PropId),
-    /// A part gets its own shape again.
-    Shape(CharacterId, Node),
-    /// A shape that was added to a part is taken away.
-    ExtraShape(CharacterId, Node, String),
-    /// A part is held as the scene says (tracker `kd`).
-    Weights(CharacterId, Node),
-    /// The gains of the tracker `kd` are those of the scene.
-    Kd(CharacterId),
-    /// Kinematic forces that were switched are switched back.
-    Pins(CharacterId),
-    /// A moving prop keeps its speed.
-    Acceleration(PropId),
-}
+use sinew_world::{CharacterId, Entity};
 
 /// A force that lasts.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,10 +18,11 @@ pub struct LastingPush {
     pub until_step: u64,
 }
 
-/// TimedEffects that are under way.
-#[derive(Clone, Debug, Default)]
+/// Timed effects that are under way. Plain data: a clone of it is a snapshot.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct TimedEffects {
-    endings: Vec<(u64, Expiry)>,
+    /// The orders that take something back, in the order in which it was begun, each with its step.
+    endings: Vec<(u64, Order)>,
     /// Forces that act now.
     pub pushes: Vec<LastingPush>,
     /// Factors on gravity that are on their way.
@@ -59,21 +33,48 @@ pub struct TimedEffects {
 pub const MAX_PUSHES: usize = 1000;
 
 impl TimedEffects {
-    /// Something ends at a step. What ended it before no longer counts: the newest command wins.
-    pub fn end_at(&mut self, step: Option<u64>, ending: Expiry) {
-        self.endings.retain(|(_, other)| *other != ending);
+    /// An order takes something back at a step; never with `None`. What waits already and sets the same thing no longer counts: the
+    /// newest command wins. But what that one would have brought back is brought back all the same, so that a value that only
+    /// lasts is never taken for the one of before.
+    pub fn end_at(&mut self, step: Option<u64>, order: Order) {
+        let place = self.endings.iter().position(|(_, other)| other.sets_the_same(&order));
+        let before = place.map(|place| self.endings.remove(place).1);
         if let Some(step) = step {
-            self.endings.push((step, ending));
+            self.endings.push((step, before.unwrap_or(order)));
         }
     }
 
-    /// What ends at or before a step, in the order in which it was begun.
-    pub fn take_due(&mut self, step: u64) -> Vec<Expiry> {
+    /// Orders that are due at or before a step, in the order in which what they take back was begun.
+    pub fn take_due(&mut self, step: u64) -> Vec<Order> {
         if self.endings.iter().all(|(at, _)| *at > step) {
             return Vec::new();
         }
-        let due = self.endings.iter().filter(|(at, _)| *at <= step).map(|(_, ending)| ending.clone()).collect();
+        let due = self.endings.iter().filter(|(at, _)| *at <= step).map(|(_, order)| order.clone()).collect();
         self.endings.retain(|(at, _)| *at > step);
         due
+    }
+
+    /// Gravity of single parts of a character no longer comes back: a command for all of them came.
+    pub fn forget_gravity_of_parts(&mut self, character: CharacterId) {
+        self.endings.retain(|(_, order)| match order {
+            Order::Character { id, order: CharacterOrder::Gravity { node: Some(_), .. } } => *id != character,
+            _ => true,
+        });
+    }
+
+    /// The factor on gravity that something gets back; `None` when what it has stays.
+    pub fn gravity_at_end(&self, what: Weighs) -> Option<f64> {
+        let scale = |(_, order): &(u64, Order), is_whole: bool| match (order, what) {
+            (Order::Character { id, order: CharacterOrder::Gravity { node, scale, .. } }, Weighs::Part(of, part)) => {
+                let is_meant = if is_whole { node.is_none() } else { *node == Some(part) };
+                (*id == of && is_meant).then_some(*scale)
+            }
+            (Order::Stage(StageOrder::PropGravity { prop, scale, .. }), Weighs::Prop(of)) => {
+                (*prop == of).then_some(*scale)
+            }
+            _ => None,
+        };
+        let find = |is_whole| self.endings.iter().find_map(|ending| scale(ending, is_whole));
+        find(false).or_else(|| find(true))
     }
 }

@@ -211,6 +211,12 @@ impl World {
         }
     }
 
+    /// Whether forces on a part are on, as [`World::set_forces`] switches them.
+    pub fn has_forces(&self, character: CharacterId, node: Node) -> bool {
+        let Some(character) = self.characters.get(character) else { return false };
+        !matches!(character.holds[node.index()], Hold::Drifting)
+    }
+
     /// A force on a part in the next step only \[N\], at a point of the world or at its centre of mass.
     pub fn push_part(&mut self, character: CharacterId, node: Node, force: DVec3, point: Option<DVec3>) {
         let Some(character) = self.characters.get_mut(character) else { return self.count_stale() };

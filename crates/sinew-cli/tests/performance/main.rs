@@ -7,6 +7,7 @@ mod car;
 mod giant;
 mod glider;
 mod grasps;
+mod script_ranges;
 mod sit_on_box;
 mod stage;
 mod stapler;

@@ -2,6 +2,7 @@
 
 use super::cut;
 use super::effect::over;
+use crate::order::ShapeChoice;
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::Layer;
@@ -222,27 +223,6 @@ pub enum ReachTarget {
     Point(DVec3),
 }
 
-/// The collision shape of a part.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum ShapeChoice {
-    /// The part's own; `own` in scenes.
-    Own,
-    /// None at all; `none` in scenes.
-    None,
-    /// One of the scene's `[shapes]`.
-    Named(String),
-}
-
-impl fmt::Display for ShapeChoice {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            ShapeChoice::Own => "own",
-            ShapeChoice::None => "none",
-            ShapeChoice::Named(name) => name,
-        })
-    }
-}
-
 impl CharacterEffect {
     /// The sentence, with the character's name.
     pub(super) fn write(&self, who: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -326,6 +306,19 @@ impl CharacterEffect {
             }
             E::PutBack => write!(f, "{who} is put back to where it was last sound"),
             E::Says { text } => write!(f, "{who}: {text}"),
+        }
+    }
+
+    /// In the words for something whose time is over.
+    pub(super) fn at_its_end(self) -> CharacterEffect {
+        match self {
+            CharacterEffect::Shape { node, shape: ShapeChoice::Own } => CharacterEffect::OwnShape { node },
+            CharacterEffect::Weights { ref nodes, .. } => match nodes[..] {
+                [node] => CharacterEffect::WeightsRestored { node },
+                _ => self,
+            },
+            CharacterEffect::KdGains(_) => CharacterEffect::KdGainsRestored,
+            other => other,
         }
     }
 

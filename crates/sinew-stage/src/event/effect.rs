@@ -136,6 +136,15 @@ impl Effect {
         matches!(self, Effect::Refused(_))
     }
 
+    /// In the words for something whose time is over.
+    pub(crate) fn at_its_end(self) -> Effect {
+        match self {
+            Effect::Character { name, effect } => Effect::Character { name, effect: effect.at_its_end() },
+            Effect::PropAccelerated { prop, .. } => Effect::PropKeepsSpeed { prop },
+            other => other,
+        }
+    }
+
     /// Truncates untrusted texts.
     pub(super) fn shorten(&mut self) {
         match self {

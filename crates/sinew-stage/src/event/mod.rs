@@ -19,7 +19,7 @@ mod effect;
 mod log;
 
 pub use cause::Cause;
-pub use character_effect::{CharacterEffect, ReachTarget, ShapeChoice};
+pub use character_effect::{CharacterEffect, ReachTarget};
 pub use effect::Effect;
 pub use log::{Event, Events};
 

@@ -6,8 +6,8 @@ use super::{KdSpec, ResponseSpec, SourceSpec};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_body::humanoid::Node;
-use sinew_control::Layer;
 use sinew_control::tracker::TrackerKind;
+use sinew_control::{Layer, range};
 use sinew_motion::Part;
 use std::collections::BTreeMap;
 
@@ -149,7 +149,7 @@ impl CharacterSpec {
     }
 
     /// The error for an unknown part.
-    pub(super) fn no_part(&self, wanted: &str) -> String {
+    pub(crate) fn no_part(&self, wanted: &str) -> String {
         let parts = Node::ALL.into_iter().map(|node| node.part().name());
         let names = self.aliases.keys().map(String::as_str).chain(parts);
         format!("no part or alias `{}`; {}", shortened(wanted), known(wanted, names))
@@ -159,19 +159,19 @@ impl CharacterSpec {
         let at = |key| ["characters", name, key];
         number(&at("mass_kg"), self.mass_kg, 1.0..=1000.0, "kilograms are expected")?;
         optional(&at("height_m"), self.height_m, 0.2..=10.0, "metres are expected, not centimetres")?;
-        vector(&at("position_m"), self.position_m, 1e5, "metres are expected")?;
-        number(&at("facing_deg"), self.facing_deg, -360.0..=360.0, "degrees are expected")?;
-        vector(&at("velocity_m_s"), self.velocity_m_s, 1e3, "metres a second are expected")?;
+        vector(&at("position_m"), self.position_m, range::PLACE_M.max, "metres are expected")?;
+        number(&at("facing_deg"), self.facing_deg, range::FACING_DEG.inclusive(), "degrees are expected")?;
+        vector(&at("velocity_m_s"), self.velocity_m_s, range::VELOCITY_M_S.max, "metres a second are expected")?;
         vector(&at("spin_rad_s"), self.spin_rad_s, 1e3, "radians a second are expected")?;
-        number(&at("pose_gain"), self.pose_gain, 0.0..=1000.0, "1 is usual")?;
-        number(&at("gravity_scale"), self.gravity_scale, -100.0..=100.0, "1 is as on Earth")?;
+        number(&at("pose_gain"), self.pose_gain, range::GAIN.inclusive(), "1 is usual")?;
+        number(&at("gravity_scale"), self.gravity_scale, range::GRAVITY_SCALE.inclusive(), "1 is as on Earth")?;
         optional(&at("friction"), self.friction, 0.0..=10.0, "rubber has about 1, ice 0.05")?;
         colour(&at("colour"), self.colour.as_deref())?;
         if let PlaneSpec::Facing(plane) = self.plane {
             number(
                 &["characters", name, "plane", "facing_deg"],
                 plane.facing_deg,
-                -360.0..=360.0,
+                range::FACING_DEG.inclusive(),
                 "degrees are expected",
             )?;
         }

@@ -2,9 +2,10 @@
 
 use super::error::{Fault, known, shortened};
 use super::range::{count, name, new_name, number, optional};
-use super::stage::MAX_SECS;
-use super::{SCENE_FORMAT, SceneSpec, Touchable};
-use sinew_control::GraphSpec;
+use super::{SCENE_FORMAT, SceneErrorKind, SceneSpec, Touchable};
+use crate::Cast;
+use crate::order::Resolver;
+use sinew_control::{Command, GraphSpec, OrderError, OrderErrorKind, range};
 
 /// The built-in pose: standing, arms hanging.
 pub const STAND: &str = "stand";
@@ -31,7 +32,7 @@ impl SceneSpec {
             } else {
                 format!("there is no format {}; write format = {SCENE_FORMAT}", self.format)
             };
-            return Err(Fault::at(&["format"], problem));
+            return Err(Fault::at(&["format"], problem).of_kind(SceneErrorKind::WrongVersion));
         }
         self.stage.check()?;
         self.camera.check()?;
@@ -88,7 +89,7 @@ impl SceneSpec {
                 self.characters.len(),
                 self.poses.len()
             );
-            return Err(Fault::at(&["characters"], problem));
+            return Err(Fault::at(&["characters"], problem).of_kind(SceneErrorKind::TooLarge));
         }
         match &self.name {
             Some(name) if name.len() > 200 => Err(Fault::at(&["name"], "it is longer than 200 bytes; shorten it")),
@@ -177,25 +178,41 @@ impl SceneSpec {
             return Ok(());
         }
         let names = own.iter().copied().chain([super::range::GROUND]).chain(self.thing_names());
-        Err(Fault::at(path, format!("no part, object or character `{}`; {}", shortened(thing), known(thing, names))))
+        Err(Fault::at(path, format!("no part, object or character `{}`; {}", shortened(thing), known(thing, names)))
+            .of_kind(SceneErrorKind::NotFound))
+    }
+
+    /// Whether a command can be understood on this scene's stage, as [`Resolver::resolve`] has it.
+    ///
+    /// # Errors
+    /// As [`Resolver::resolve`].
+    pub fn check_command(&self, command: &Command) -> Result<(), OrderError> {
+        Resolver { scene: self, cast: &Cast::of(self) }.resolve(command).map(drop)
     }
 
     fn check_commands(&self) -> Result<(), Fault> {
+        let cast = Cast::of(self);
+        let resolver = Resolver { scene: self, cast: &cast };
         let command = |list: &str, index: usize, command: &sinew_control::Command| {
-            let problem = self.check_command(command);
-            problem.map_err(|problem| Fault::at(&[list.to_owned(), index.to_string()], problem))
+            let order = resolver.resolve(command).map(drop);
+            order.map_err(|error| Fault::of_order(&[list.to_owned(), index.to_string()], &error))
         };
         for (index, timed) in self.at.iter().enumerate() {
             let path = ["at".to_owned(), index.to_string(), "time_secs".to_owned()];
-            number(&path, timed.at_secs, 0.0..=MAX_SECS, "seconds from the start are expected")?;
+            number(&path, timed.at_secs, range::SECS.inclusive(), "seconds from the start are expected")?;
             command("at", index, &timed.command)?;
         }
         for (index, reaction) in self.when.iter().enumerate() {
             let path = |key: &str| ["when".to_owned(), index.to_string(), key.to_owned()];
             for thing in &reaction.touching {
-                self.touchable(thing).map_err(|problem| Fault::at(&path("touching"), problem))?;
+                self.touchable(thing).map_err(|error| Fault::of_order(&path("touching"), &error))?;
             }
-            optional(&path("repeat_after_secs"), reaction.repeat_after_secs, 0.0..=MAX_SECS, "seconds are expected")?;
+            optional(
+                &path("repeat_after_secs"),
+                reaction.repeat_after_secs,
+                range::SECS.inclusive(),
+                "seconds are expected",
+            )?;
             command("when", index, &reaction.command)?;
         }
         for (index, binding) in self.keys.iter().enumerate() {
@@ -212,8 +229,9 @@ impl SceneSpec {
     /// `ground`.
     ///
     /// # Errors
-    /// When nothing has this name: what there is instead.
-    pub fn touchable(&self, thing: &str) -> Result<Touchable, String> {
+    /// [`OrderErrorKind::NotFound`] when nothing has this name: what there is instead.
+    pub fn touchable(&self, thing: &str) -> Result<Touchable, OrderError> {
+        let not_found = |problem: String| OrderError::new(OrderErrorKind::NotFound, problem);
         if thing == super::range::GROUND {
             return Ok(Touchable::Ground);
         }
@@ -226,10 +244,14 @@ impl SceneSpec {
         if let Some((character, part)) = thing.split_once('.')
             && let Some(spec) = self.characters.get(character)
         {
-            let node = spec.node(part).ok_or_else(|| spec.no_part(part))?;
+            let node = spec.node(part).ok_or_else(|| not_found(spec.no_part(part)))?;
             return Ok(Touchable::Part(character.to_owned(), node));
         }
         let names = self.thing_names().chain([super::range::GROUND]);
-        Err(format!("no object, character or character.part `{}`; {}", shortened(thing), known(thing, names)))
+        Err(not_found(format!(
+            "no object, character or character.part `{}`; {}",
+            shortened(thing),
+            known(thing, names)
+        )))
     }
 }

@@ -1,7 +1,8 @@
 //! The text of a scene and its pose files as one table, with file and line of every key.
 
+use super::SceneErrorKind as Kind;
 use super::error::{Fault, SceneError, known, shortened};
-use super::files::{FileKind, Files, HeldFile, of_kind};
+use super::files::{FileError, FileKind, Files, HeldFile, of_kind};
 use super::lines::{line_at, line_of, lines_of};
 use std::collections::BTreeMap;
 use toml::{Table, Value};
@@ -26,7 +27,8 @@ const MAX_FILES_BYTES: u64 = 512 << 20;
 const MAX_PATH_DEPTH: usize = 32;
 
 /// Tables whose entries are named by the scene: a misspelt name would be a new entry, not an unknown key.
-const NAMED: [&str; 8] = ["characters", "props", "ropes", "joints", "shapes", "poses", "graphs", "controllers"];
+pub(crate) const NAMED: [&str; 8] =
+    ["characters", "props", "ropes", "joints", "shapes", "poses", "graphs", "controllers"];
 
 /// A scene's table and the texts that it came from.
 #[derive(Debug)]
@@ -74,12 +76,14 @@ impl Document {
     }
 
     /// Takes a file in.
-    pub fn hold(&mut self, path: &str, files: &dyn Files, most_bytes: u64) -> Result<(), String> {
+    pub fn hold(&mut self, path: &str, files: &dyn Files, most_bytes: u64) -> Result<(), FileError> {
         if !self.files.contains_key(path) {
             let left = MAX_FILES_BYTES - self.held_bytes();
-            let bytes = files.read(path, most_bytes.min(left)).map_err(|problem| match most_bytes > left {
-                true => format!("{problem} (all files of a scene together may have {MAX_FILES_BYTES} bytes)"),
-                false => problem,
+            let bytes = files.read(path, most_bytes.min(left)).map_err(|mut error| {
+                if most_bytes > left {
+                    error.problem += &format!(" (all files of a scene together may have {MAX_FILES_BYTES} bytes)");
+                }
+                error
             })?;
             self.files.insert(path.to_owned(), HeldFile::new(bytes));
         }
@@ -101,20 +105,23 @@ impl Document {
     }
 
     fn parse(&mut self, path: &str, files: &dyn Files) -> Result<Table, SceneError> {
-        let whole = |line, problem| SceneError { file: files.shown(path), line, path: String::new(), problem };
-        self.hold(path, files, MAX_TEXT_BYTES).map_err(|problem| whole(None, problem))?;
+        let whole = |kind, line, problem| {
+            let file = files.shown(path);
+            SceneError { kind, file, line, path: String::new(), problem }
+        };
+        self.hold(path, files, MAX_TEXT_BYTES).map_err(|error| whole(error.kind.into(), None, error.problem))?;
         let is_light = self.weigh(path);
         let text = self.text(path);
         if std::str::from_utf8(&self.files[path].bytes).is_err() {
-            return Err(whole(None, "this is no UTF-8 text; save it as UTF-8".to_owned()));
+            return Err(whole(Kind::Unreadable, None, "this is no UTF-8 text; save it as UTF-8".to_owned()));
         }
         if !is_light {
             let problem = "the scene and its pose files state too many values; leave some out, or make meshes coarser";
-            return Err(whole(None, problem.to_owned()));
+            return Err(whole(Kind::TooLarge, None, problem.to_owned()));
         }
         text.parse::<Table>().map_err(|error| {
             let line = error.span().map(|span| line_at(text, span.start));
-            whole(line, format!("this is no TOML: {}; correct the line", error.message().trim()))
+            whole(Kind::Unreadable, line, format!("this is no TOML: {}; correct the line", error.message().trim()))
         })
     }
 
@@ -131,12 +138,13 @@ impl Document {
             // Only texts are held yet.
             let left = MAX_TEXT_BYTES.min(MAX_TEXTS_BYTES - self.held_bytes());
             let held = of_kind(path, &FileKind::POSES).and_then(|()| self.hold(path, files, left));
-            if let Err(problem) = held {
-                let fault = Fault::at(&["stage", "pose_files"], format!("`{}`: {problem}", shortened(path)));
+            if let Err(error) = held {
+                let fault = Fault::of_file(&["stage", "pose_files"], path, &error);
                 return Err(self.place(files, fault));
             }
             let mut table = self.parse(path, files)?;
             let fault = |path: &str, key: &str, line: Option<usize>, problem: String| SceneError {
+                kind: Kind::Malformed,
                 file: files.shown(path),
                 line,
                 path: key.to_owned(),
@@ -242,7 +250,8 @@ impl Document {
         fn walk(value: &Value) -> Result<(), Fault> {
             match value {
                 Value::Float(number) if !number.is_finite() => {
-                    Err(Fault::at::<&str>(&[], format!("{number} is no finite number; write one")))
+                    let problem = format!("{number} is no finite number; write one");
+                    Err(Fault::at::<&str>(&[], problem).of_kind(Kind::OutOfRange))
                 }
                 // A path of numbers in a list ends at the list: all on a line as a rule.
                 Value::Array(items) => items.iter().enumerate().try_for_each(|(index, item)| {
@@ -281,12 +290,14 @@ impl Document {
         let set = self.sets.iter().rev().find(|(set, _)| is_inside(set) || set.starts_with(&format!("{path}.")));
         match set {
             Some((set, value)) if is_inside(set) => SceneError {
+                kind: fault.kind,
                 file: files.shown(self.origin(&fault.path)),
                 line: None,
                 path,
                 problem: format!("{} (it was set to {} from outside)", fault.problem, shortened(value)),
             },
             _ => SceneError {
+                kind: fault.kind,
                 file: files.shown(self.origin(&fault.path)),
                 line: self.line(&fault.path),
                 path,

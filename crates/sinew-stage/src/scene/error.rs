@@ -1,8 +1,33 @@
 //! Errors of a scene: place, problem and remedy.
 
-/// An invalid scene.
+use super::{FileError, FileErrorKind};
+use sinew_control::{OrderError, OrderErrorKind};
+
+/// What kind of trouble a [`SceneError`] is, for a program to match on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum SceneErrorKind {
+    /// A file or a name that is not there.
+    NotFound,
+    /// A number beyond its range, NaN or infinite.
+    OutOfRange,
+    /// A file, a text or a list beyond its limit.
+    TooLarge,
+    /// Another version of the format.
+    WrongVersion,
+    /// The text is no TOML, no UTF-8, or a file cannot be read.
+    Unreadable,
+    /// A key that is missing or not known, or a value of another type.
+    Malformed,
+    /// Values that make no sense, or not together.
+    Invalid,
+}
+
+/// A scene that cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
+    /// What kind of trouble it is.
+    pub kind: SceneErrorKind,
     /// The file, as it was named.
     pub file: String,
     /// The line of the offending key, counted from 1.
@@ -28,6 +53,17 @@ impl std::fmt::Display for SceneError {
     }
 }
 
+impl From<FileErrorKind> for SceneErrorKind {
+    fn from(kind: FileErrorKind) -> SceneErrorKind {
+        match kind {
+            FileErrorKind::NotFound => SceneErrorKind::NotFound,
+            FileErrorKind::TooLarge => SceneErrorKind::TooLarge,
+            FileErrorKind::NotAllowed => SceneErrorKind::Invalid,
+            FileErrorKind::Unreadable | FileErrorKind::Changed => SceneErrorKind::Unreadable,
+        }
+    }
+}
+
 /// A problem at a key, before its file and line are looked up.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Fault {
@@ -35,11 +71,35 @@ pub(crate) struct Fault {
     pub path: Vec<String>,
     /// What is wrong and what to do.
     pub problem: String,
+    /// What kind of trouble it is.
+    pub kind: SceneErrorKind,
 }
 
 impl Fault {
     pub(crate) fn at<S: ToString>(path: &[S], problem: impl Into<String>) -> Fault {
-        Fault { path: path.iter().map(S::to_string).collect(), problem: problem.into() }
+        let path = path.iter().map(S::to_string).collect();
+        Fault { path, problem: problem.into(), kind: SceneErrorKind::Invalid }
+    }
+
+    /// The same of another kind.
+    #[must_use]
+    pub(crate) fn of_kind(self, kind: SceneErrorKind) -> Fault {
+        Fault { kind, ..self }
+    }
+
+    /// What cannot be understood as a command, or as a name of one.
+    pub(crate) fn of_order<S: ToString>(path: &[S], error: &OrderError) -> Fault {
+        Fault::at(path, error.problem()).of_kind(match error.kind() {
+            OrderErrorKind::NotFound => SceneErrorKind::NotFound,
+            OrderErrorKind::OutOfRange => SceneErrorKind::OutOfRange,
+            OrderErrorKind::TooLarge => SceneErrorKind::TooLarge,
+            _ => SceneErrorKind::Invalid,
+        })
+    }
+
+    /// A file that the scene does not get; `name` is how it names it.
+    pub(crate) fn of_file<S: ToString>(path: &[S], name: &str, error: &FileError) -> Fault {
+        Fault::at(path, format!("`{}`: {}", shortened(name), error.problem)).of_kind(error.kind.into())
     }
 
     /// The same fault, one level further out.

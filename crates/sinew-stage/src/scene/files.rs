@@ -12,7 +12,7 @@ pub trait Files: Debug + Send + Sync {
     ///
     /// # Errors
     /// Why the file cannot be read, with a remedy; also if it exceeds `most_bytes`.
-    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, String>;
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileError>;
 
     /// The file's name in messages.
     fn shown(&self, path: &str) -> String {
@@ -22,6 +22,39 @@ pub trait Files: Debug + Send + Sync {
     /// Its path, if it is on a disk.
     fn on_disk(&self, _path: &str) -> Option<PathBuf> {
         None
+    }
+}
+
+/// What kind of trouble a [`FileError`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FileErrorKind {
+    /// There is no such file.
+    NotFound,
+    /// It is larger than allowed.
+    TooLarge,
+    /// A scene may not name it so.
+    NotAllowed,
+    /// It is there and cannot be read.
+    Unreadable,
+    /// It is not the one that a take was recorded with.
+    Changed,
+}
+
+/// Why a scene does not get a file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{problem}")]
+pub struct FileError {
+    /// What kind of trouble it is.
+    pub kind: FileErrorKind,
+    /// What is wrong and what to do.
+    pub problem: String,
+}
+
+impl FileError {
+    /// An error of a kind; `problem` says what is wrong and what to do.
+    pub fn new(kind: FileErrorKind, problem: impl Into<String>) -> FileError {
+        FileError { kind, problem: problem.into() }
     }
 }
 
@@ -54,13 +87,13 @@ pub struct DiskFiles {
 }
 
 impl Files for DiskFiles {
-    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, String> {
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileError> {
         allowed(path)?;
         let place = self.folder.join(path);
         // Checked before it is opened: opening a pipe would wait for its other end.
         let about = std::fs::metadata(&place).map_err(|error| wording(&error))?;
         if !about.is_file() {
-            return Err("this is no file; name a file".to_owned());
+            return Err(FileError::new(FileErrorKind::Unreadable, "this is no file; name a file"));
         }
         let file = std::fs::File::open(&place).map_err(|error| wording(&error))?;
         let mut bytes = Vec::new();
@@ -79,9 +112,9 @@ impl Files for DiskFiles {
 }
 
 impl Files for BTreeMap<String, Vec<u8>> {
-    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, String> {
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileError> {
         allowed(path)?;
-        let bytes = self.get(path).ok_or("there is no such file; correct the name or add the file")?;
+        let bytes = self.get(path).ok_or_else(not_there)?;
         within(bytes.clone(), most_bytes)
     }
 }
@@ -91,16 +124,17 @@ impl Files for BTreeMap<String, Vec<u8>> {
 ///
 /// # Errors
 /// Why it is not allowed.
-pub(crate) fn allowed(path: &str) -> Result<(), String> {
+pub(crate) fn allowed(path: &str) -> Result<(), FileError> {
+    let refused = |problem: String| Err(FileError::new(FileErrorKind::NotAllowed, problem));
     let remedy = "write it relative to the scene's folder, with `/`";
     if path.is_empty() {
-        return Err(format!("the name of a file is empty; {remedy}"));
+        return refused(format!("the name of a file is empty; {remedy}"));
     }
     if path.len() > 1024 || path.chars().any(char::is_control) {
-        return Err(format!("a file's name is longer than 1024 bytes or holds control characters; {remedy}"));
+        return refused(format!("a file's name is longer than 1024 bytes or holds control characters; {remedy}"));
     }
     if path.starts_with('/') || path.contains(['\\', ':']) || Path::new(path).is_absolute() {
-        return Err(format!(
+        return refused(format!(
             "{path:?} is an absolute path, or uses `\\` or `:`, and means another file elsewhere; {remedy}"
         ));
     }
@@ -112,12 +146,13 @@ pub(crate) fn allowed(path: &str) -> Result<(), String> {
 ///
 /// # Errors
 /// The expected extensions.
-pub(crate) fn of_kind(path: &str, kind: &FileKind) -> Result<(), String> {
+pub(crate) fn of_kind(path: &str, kind: &FileKind) -> Result<(), FileError> {
     let extension = Path::new(path).extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if kind.extensions.iter().any(|known| known.eq_ignore_ascii_case(extension)) {
         return Ok(());
     }
-    Err(format!("{} is expected, a file that ends in .{}", kind.what, kind.extensions.join(", .")))
+    let problem = format!("{} is expected, a file that ends in .{}", kind.what, kind.extensions.join(", ."));
+    Err(FileError::new(FileErrorKind::NotAllowed, problem))
 }
 
 /// A kind of file that a scene may name.
@@ -138,16 +173,22 @@ impl FileKind {
     };
 }
 
-fn within(bytes: Vec<u8>, most_bytes: u64) -> Result<Vec<u8>, String> {
+pub(super) fn within(bytes: Vec<u8>, most_bytes: u64) -> Result<Vec<u8>, FileError> {
     if bytes.len() as u64 > most_bytes {
-        return Err(format!("the file is larger than the {most_bytes} bytes allowed; make it smaller"));
+        let problem = format!("the file is larger than the {most_bytes} bytes allowed; make it smaller");
+        return Err(FileError::new(FileErrorKind::TooLarge, problem));
     }
     Ok(bytes)
 }
 
-fn wording(error: &std::io::Error) -> String {
-    match error.kind() {
-        std::io::ErrorKind::NotFound => "there is no such file; correct the name or add the file".to_owned(),
-        _ => format!("the file cannot be read ({error}); check its place and permissions"),
+fn not_there() -> FileError {
+    FileError::new(FileErrorKind::NotFound, "there is no such file; correct the name or add the file")
+}
+
+fn wording(error: &std::io::Error) -> FileError {
+    if error.kind() == std::io::ErrorKind::NotFound {
+        return not_there();
     }
+    let problem = format!("the file cannot be read ({error}); check its place and permissions");
+    FileError::new(FileErrorKind::Unreadable, problem)
 }

@@ -6,6 +6,7 @@ use super::range::{name as known_name, number, optional};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_body::humanoid::Node;
+use sinew_control::range;
 use sinew_control::tracker::{KdDamping, KdGains, KdPreset, KdSettings};
 use std::collections::BTreeMap;
 
@@ -114,13 +115,13 @@ impl KdSpec {
             ("k_q", self.k_q, "450 per second squared is usual"),
             ("d_q", self.d_q, "10 per second is usual"),
         ] {
-            optional(&at(key), value, 0.0..=MAX_GAIN, hint)?;
+            optional(&at(key), value, range::KD_GAIN.inclusive(), hint)?;
         }
-        number(&at("strength"), self.strength, 0.0..=MAX_WEIGHT, "1 is as strong as ever")?;
+        number(&at("strength"), self.strength, range::KD_WEIGHT.inclusive(), "1 is as strong as ever")?;
         for (part, weight) in &self.weights {
             let at = |key| ["characters", name, "kd", "weights", part, key];
-            number(&at("pin"), weight.pin, 0.0..=MAX_WEIGHT, "1 is as the gains say")?;
-            number(&at("joint"), weight.joint, 0.0..=MAX_WEIGHT, "1 is as the gains say")?;
+            number(&at("pin"), weight.pin, range::KD_WEIGHT.inclusive(), "1 is as the gains say")?;
+            number(&at("joint"), weight.joint, range::KD_WEIGHT.inclusive(), "1 is as the gains say")?;
         }
         Ok(())
     }
@@ -140,9 +141,3 @@ impl KdSpec {
         Ok(())
     }
 }
-
-/// Maximum gain of the tracker `kd`.
-pub(super) const MAX_GAIN: f64 = 1e5;
-
-/// Maximum weight of a part.
-pub(super) const MAX_WEIGHT: f64 = 100.0;

@@ -6,6 +6,7 @@ use super::shape::{CapsuleSpec, Forms, MeshSpec, RingSpec, rotation};
 use super::stage::surface_check;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use sinew_control::range;
 use sinew_world::{Motion, Solid, Surface};
 
 /// A prop. It has exactly one shape, and exactly one of `mass_kg`, `fixed`, `moving`; a sensor without them is fixed.
@@ -139,11 +140,16 @@ impl PropSpec {
             }
         }
         surface_check(&["props", name], self.friction, self.bounce)?;
-        vector(&at("position_m"), self.position_m, 1e5, "metres are expected")?;
+        vector(&at("position_m"), self.position_m, range::PLACE_M.max, "metres are expected")?;
         vector(&at("turn_deg"), self.turn_deg, 360.0, "degrees are expected")?;
-        vector(&at("velocity_m_s"), self.velocity_m_s, 1e3, "metres a second are expected")?;
+        vector(&at("velocity_m_s"), self.velocity_m_s, range::VELOCITY_M_S.max, "metres a second are expected")?;
         vector(&at("spin_rad_s"), self.spin_rad_s, 1e3, "radians a second are expected")?;
-        number(&at("gravity_scale"), self.gravity_scale.unwrap_or(1.0), -100.0..=100.0, "1 is as on Earth")?;
+        number(
+            &at("gravity_scale"),
+            self.gravity_scale.unwrap_or(1.0),
+            range::GRAVITY_SCALE.inclusive(),
+            "1 is as on Earth",
+        )?;
         number(&at("drag_per_s"), self.drag_per_s, 0.0..=1e3, "0 is a vacuum, 1 halves a speed in 0.7 s")?;
         colour(&at("colour"), self.colour.as_deref())
     }

@@ -1,11 +1,12 @@
 //! Joints of props: to each other, to the ground or to a part.
 
-use super::error::{Fault, known, shortened};
+use super::error::{Fault, shortened};
 use super::range::{number, optional, vector};
 use super::{SceneSpec, Touchable};
 use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use sinew_control::range;
 use sinew_world::{Aim, Motor, PropJointKind};
 
 /// A joint. Its kind decides which keys are allowed; others are refused.
@@ -89,7 +90,7 @@ pub struct MotorSpec {
 }
 
 impl JointKind {
-    fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             JointKind::Fixed => "fixed",
             JointKind::Ball => "ball",
@@ -163,7 +164,7 @@ impl PropJointSpec {
         let at = |key| ["joints", name, key];
         let mut moves = false;
         for thing in &self.between {
-            let found = scene.touchable(thing).map_err(|problem| Fault::at(&at("between"), problem))?;
+            let found = scene.touchable(thing).map_err(|error| Fault::of_order(&at("between"), &error))?;
             if let Touchable::Character(character) = &found {
                 let problem =
                     format!("a character is fastened by a part; write `{}.hips` or another", shortened(character));
@@ -241,7 +242,7 @@ impl PropJointSpec {
             number(&at("stiffness_n_m"), stiffness, 1e-3..=1e7, "newtons a metre are expected")?;
         }
         optional(&at("damping_n_s_m"), self.damping_n_s_m, 0.0..=1e6, "newtons by metres a second are expected")?;
-        optional(&at("break_n"), self.break_n, 1e-6..=1e9, "newtons are expected")?;
+        optional(&at("break_n"), self.break_n, range::BREAK_FORCE_N.inclusive(), "newtons are expected")?;
         self.motor.map_or(Ok(()), |motor| motor.check(self.kind, name))
     }
 }
@@ -273,32 +274,5 @@ impl MotorSpec {
             return Err(Fault::at(&["joints", name, "motor"], "it aims at two things; keep a speed or a place"));
         }
         Ok(())
-    }
-}
-
-impl SceneSpec {
-    /// A joint that a command names.
-    pub(super) fn joint(&self, name: &str) -> Result<&PropJointSpec, String> {
-        self.joints.get(name).ok_or_else(|| {
-            format!("no joint `{}`; {}", shortened(name), known(name, self.joints.keys().map(String::as_str)))
-        })
-    }
-
-    /// A joint that a command wants to drive, and whether what it states fits.
-    pub(super) fn check_motor(&self, name: &str, stated: [(&str, Option<f64>); 4]) -> Result<(), String> {
-        let joint = self.joint(name)?;
-        if joint.motor.is_none() {
-            return Err(format!("`{}` has no motor; add motor = {{ ... }} in [joints.{0}]", shortened(name)));
-        }
-        let own = if joint.kind == JointKind::Hinge { ["speed_rad_s", "angle_deg"] } else { ["speed_m_s", "shift_m"] };
-        let mut aims = stated.into_iter().filter_map(|(key, value)| Some((key, value?)));
-        let Some((key, value)) = aims.next() else { return Ok(()) };
-        if aims.next().is_some() {
-            return Err("it aims at two things; keep a speed or a place".to_owned());
-        }
-        if !own.contains(&key) {
-            return Err(format!("`{}` is a {}; write {}", shortened(name), joint.kind.name(), own.join(" or ")));
-        }
-        if value.abs() <= 300.0 { Ok(()) } else { Err(format!("{key} = {value} is out of range -300 to 300")) }
     }
 }

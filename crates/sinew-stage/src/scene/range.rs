@@ -1,5 +1,6 @@
 //! Checks of numbers and names, worded.
 
+use super::SceneErrorKind as Kind;
 use super::error::{Fault, known, shortened};
 use std::ops::RangeInclusive;
 
@@ -8,7 +9,8 @@ pub(super) fn number<S: ToString>(path: &[S], value: f64, range: RangeInclusive<
     if range.contains(&value) {
         return Ok(());
     }
-    Err(Fault::at(path, format!("{value} is out of range {} to {}; {hint}", range.start(), range.end())))
+    let problem = format!("{value} is out of range {} to {}; {hint}", range.start(), range.end());
+    Err(Fault::at(path, problem).of_kind(Kind::OutOfRange))
 }
 
 /// The same where a value may be missing.
@@ -31,7 +33,8 @@ pub(super) fn count<S: ToString>(path: &[S], count: usize, most: usize) -> Resul
     if count <= most {
         return Ok(());
     }
-    Err(Fault::at(path, format!("{count} are more than the {most} allowed; leave some out")))
+    let problem = format!("{count} are more than the {most} allowed; leave some out");
+    Err(Fault::at(path, problem).of_kind(Kind::TooLarge))
 }
 
 /// A name that exists.
@@ -44,7 +47,8 @@ pub(super) fn name<'a, S: ToString>(
     if names.clone().into_iter().any(|name| name == wanted) {
         return Ok(());
     }
-    Err(Fault::at(path, format!("no {what} `{}`; {}", shortened(wanted), known(wanted, names))))
+    let problem = format!("no {what} `{}`; {}", shortened(wanted), known(wanted, names));
+    Err(Fault::at(path, problem).of_kind(Kind::NotFound))
 }
 
 /// A name that something new may bear.

@@ -1,16 +1,19 @@
 //! Reads and validates a scene.
 
-use super::command_check::MAX_PYTHON_BYTES;
 use super::document::Document;
 use super::error::{Fault, shortened};
 use super::files::{FileKind, of_kind};
 use super::wording;
-use super::{ControllerSpec, DiskFiles, Files, HeldFile, SceneError, SceneSpec};
+use super::{ControllerSpec, DiskFiles, FileError, Files, HeldFile, SceneError, SceneErrorKind, SceneSpec};
 use sinew_body::humanoid::Node;
+use sinew_control::{OrderError, OrderErrorKind};
 use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// Largest Python text \[bytes\].
+pub(crate) const MAX_PYTHON_BYTES: usize = 1 << 20;
 
 /// Maximum size of a motion file of a scene \[bytes\].
 const MAX_CLIP_BYTES: u64 = 256 << 20;
@@ -55,7 +58,8 @@ impl Scene {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let Some(name) = path.file_name().and_then(|name| name.to_str()) else {
             let problem = "this names no file; name a scene, such as scenes/block.toml".to_owned();
-            return Err(SceneError { file: path.display().to_string(), line: None, path: String::new(), problem });
+            let (kind, file) = (SceneErrorKind::NotFound, path.display().to_string());
+            return Err(SceneError { kind, file, line: None, path: String::new(), problem });
         };
         Scene::load(name, Arc::new(DiskFiles { folder }), &[])
     }
@@ -93,15 +97,14 @@ impl Scene {
         for (path, file, kind, most_bytes) in named_files(&spec) {
             let held = super::files::allowed(&file).and_then(|()| of_kind(&file, &kind));
             let held = held.and_then(|()| document.hold(&file, files, most_bytes));
-            held.map_err(|problem| {
-                document.place(files, Fault::at(&path, format!("`{}`: {problem}", shortened(&file))))
-            })?;
+            held.map_err(|error| document.place(files, Fault::of_file(&path, &file, &error)))?;
         }
         for (controller, ControllerSpec { file, text, .. }) in &spec.controllers {
             let at = |key| ["controllers", controller, key];
             if text.as_ref().is_some_and(|text| text.len() > MAX_PYTHON_BYTES) {
                 let problem = format!("the text is longer than {MAX_PYTHON_BYTES} bytes; shorten it");
-                return Err(document.place(files, Fault::at(&at("text"), problem)));
+                let fault = Fault::at(&at("text"), problem).of_kind(SceneErrorKind::TooLarge);
+                return Err(document.place(files, fault));
             }
             if let Some(file) = file
                 && document.files.get(file).is_none_or(|held| held.text().is_none())
@@ -129,6 +132,17 @@ impl Scene {
         sets.push((path.to_owned(), value.to_owned()));
         *self = Scene::load(&self.name, Arc::clone(&self.source), &sets)?;
         Ok(())
+    }
+
+    /// The scene file's text.
+    pub(crate) fn text(&self) -> &str {
+        self.held.get(&self.name).and_then(HeldFile::text).unwrap_or_default()
+    }
+
+    /// The scene with another text of its file; what it names is read from where this scene's files are.
+    pub(crate) fn with_text(&self, text: &str) -> Result<Scene, SceneError> {
+        let edited = EditedFile { name: self.name.clone(), text: text.to_owned(), others: Arc::clone(&self.source) };
+        Scene::load(&self.name, Arc::new(edited), &self.sets)
     }
 
     /// The scene file's own name, without folders.
@@ -164,12 +178,41 @@ impl Scene {
     ///
     /// # Errors
     /// No such controller, or a file that cannot be read.
-    pub fn controller_text_again(&self, name: &str) -> Result<String, String> {
-        let controller =
-            self.spec.controllers.get(name).ok_or_else(|| format!("no controller `{}`", shortened(name)))?;
+    pub fn controller_text_again(&self, name: &str) -> Result<String, OrderError> {
+        let wrong = |kind, problem: String| OrderError::new(kind, problem);
+        let controller = self.spec.controllers.get(name);
+        let controller = controller
+            .ok_or_else(|| wrong(OrderErrorKind::NotFound, format!("no controller `{}`", shortened(name))))?;
         let Some(file) = &controller.file else { return Ok(controller.text.clone().unwrap_or_default()) };
-        let bytes = self.source.read(file, MAX_PYTHON_BYTES as u64).map_err(|problem| format!("{file}: {problem}"))?;
-        String::from_utf8(bytes).map_err(|_| format!("{file} is no UTF-8 text; save it as UTF-8"))
+        let bytes = self.source.read(file, MAX_PYTHON_BYTES as u64);
+        let bytes = bytes.map_err(|problem| wrong(OrderErrorKind::Script, format!("{file}: {problem}")))?;
+        String::from_utf8(bytes)
+            .map_err(|_| wrong(OrderErrorKind::Script, format!("{file} is no UTF-8 text; save it as UTF-8")))
+    }
+}
+
+/// Files of a scene whose own text is another.
+#[derive(Clone, Debug)]
+struct EditedFile {
+    name: String,
+    text: String,
+    others: Arc<dyn Files>,
+}
+
+impl Files for EditedFile {
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileError> {
+        if path != self.name {
+            return self.others.read(path, most_bytes);
+        }
+        super::files::within(self.text.clone().into_bytes(), most_bytes)
+    }
+
+    fn shown(&self, path: &str) -> String {
+        self.others.shown(path)
+    }
+
+    fn on_disk(&self, path: &str) -> Option<PathBuf> {
+        if path == self.name { None } else { self.others.on_disk(path) }
     }
 }
 

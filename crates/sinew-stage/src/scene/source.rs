@@ -50,7 +50,7 @@ impl SourceSpec {
             if self.graph.is_some() || self.live.is_some() {
                 return Err(Fault::at(&at("reach"), "a reach begins in a pose or a clip; remove graph and live"));
             }
-            reach.check().map_err(|problem| Fault::at(&at("reach"), problem))?;
+            reach.check().map_err(|error| Fault::of_order(&at("reach"), &error))?;
         }
         if self.state.is_some() && self.graph.is_none() {
             return Err(Fault::at(&at("state"), "only a graph has states; add graph, or remove this"));

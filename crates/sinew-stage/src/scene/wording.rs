@@ -1,5 +1,6 @@
 //! Translates serde's errors for authors of scenes.
 
+use super::SceneErrorKind;
 use super::error::{Fault, known, shortened};
 
 /// A fault from an error of serde at a path.
@@ -16,7 +17,7 @@ pub(super) fn fault(error: serde_path_to_error::Error<toml::de::Error>) -> Fault
         .collect();
     let message = error.inner().message().trim().to_owned();
     let problem = problem(&message, &mut path);
-    Fault { path, problem }
+    Fault { path, problem, kind: SceneErrorKind::Malformed }
 }
 
 /// The message in our words; an unknown key is added to the path where it is not its end yet.

@@ -10,5 +10,5 @@ mod record;
 mod scene;
 mod write;
 
-pub use error::TakeError;
+pub use error::{TakeError, TakeErrorKind};
 pub use record::{HashTrace, Stamped, TAKE_FORMAT, Take, TakeFile, due};

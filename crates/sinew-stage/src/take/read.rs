@@ -1,5 +1,6 @@
 //! Reading a take.
 
+use super::TakeErrorKind as Kind;
 use super::line::{AnyHeader, CommandLine, EndLine, FileLine, Header, from_hex};
 use super::{HashTrace, Stamped, TAKE_FORMAT, Take, TakeError, TakeFile};
 use base64::Engine;
@@ -26,7 +27,7 @@ impl Take {
     /// # Errors
     /// A file that cannot be read or is not a valid take: line, problem and remedy.
     pub fn open(path: &Path) -> Result<Take, TakeError> {
-        let whole = |problem: String| TakeError::Whole(format!("{}: {problem}", path.display()));
+        let whole = |problem: String| TakeError::whole(Kind::Unreadable, format!("{}: {problem}", path.display()));
         // Checked before it is opened: opening a pipe would wait for its other end.
         let about = std::fs::metadata(path).map_err(|error| whole(format!("the take cannot be read: {error}")))?;
         if !about.is_file() {
@@ -36,9 +37,9 @@ impl Take {
         let file = std::fs::File::open(path).map_err(|error| whole(format!("the take cannot be read: {error}")))?;
         let read = file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
         read.map_err(|error| whole(format!("the take cannot be read: {error}")))?;
-        Take::read(&bytes).map_err(|error| match error {
-            TakeError::Line { line, problem } => whole(format!("line {line}: {problem}")),
-            TakeError::Whole(problem) => whole(problem),
+        Take::read(&bytes).map_err(|TakeError { kind, line, problem }| {
+            let line = line.map_or(String::new(), |line| format!("line {line}: "));
+            TakeError::whole(kind, format!("{}: {line}{problem}", path.display()))
         })
     }
 
@@ -48,10 +49,12 @@ impl Take {
     /// As [`Take::open`].
     pub fn read(bytes: &[u8]) -> Result<Take, TakeError> {
         if bytes.len() > MAX_BYTES {
-            return Err(TakeError::Whole(format!("the take has more than {MAX_BYTES} bytes; record a shorter run")));
+            let problem = format!("the take has more than {MAX_BYTES} bytes; record a shorter run");
+            return Err(TakeError::whole(Kind::TooLarge, problem));
         }
         let Some(body) = bytes.strip_suffix(b"\n") else {
-            return Err(TakeError::Whole("the take is cut off: its last line has no end; record it again".to_owned()));
+            let problem = "the take is cut off: its last line has no end; record it again";
+            return Err(TakeError::whole(Kind::Incomplete, problem));
         };
         let mut lines = body.split(|&byte| byte == b'\n').enumerate().map(|(index, line)| (index + 1, line));
         let mut take = header(lines.next().map_or(&[], |(_, line)| line))?;
@@ -64,18 +67,17 @@ impl Take {
                 return Err(TakeError::line(number, format!("longer than {MAX_LINE_BYTES} bytes; record it again")));
             }
             match kind(line) {
-                Kind::File => file(number, line, &mut take)?,
-                Kind::Command => command(number, line, &mut take)?,
-                Kind::End => {
+                LineKind::File => file(number, line, &mut take)?,
+                LineKind::Command => command(number, line, &mut take)?,
+                LineKind::End => {
                     end(number, line, &mut take)?;
                     ended = true;
                 }
             }
         }
         if !ended {
-            return Err(TakeError::Whole(
-                "the take is cut off: its last line, with steps and hash, is missing; record it again".to_owned(),
-            ));
+            let problem = "the take is cut off: its last line, with steps and hash, is missing; record it again";
+            return Err(TakeError::whole(Kind::Incomplete, problem));
         }
         if !take.files.contains_key(&take.scene) {
             return Err(TakeError::line(1, format!("the scene {:?} is none of the take's files", short(&take.scene))));
@@ -85,37 +87,35 @@ impl Take {
 }
 
 /// What a line is, by its first key.
-enum Kind {
+enum LineKind {
     File,
     Command,
     End,
 }
 
-fn kind(line: &[u8]) -> Kind {
+fn kind(line: &[u8]) -> LineKind {
     let starts = |key: &str| line.starts_with(key.as_bytes());
     if starts("{\"file\"") {
-        Kind::File
+        LineKind::File
     } else if starts("{\"steps\"") {
-        Kind::End
+        LineKind::End
     } else {
-        Kind::Command
+        LineKind::Command
     }
 }
 
 fn header(line: &[u8]) -> Result<Take, TakeError> {
-    let any: AnyHeader = parse(1, line).map_err(|error| match error {
-        TakeError::Line { problem, .. } => TakeError::line(1, format!("this is no take: {problem}")),
-        whole @ TakeError::Whole(_) => whole,
-    })?;
+    let any: AnyHeader = parse(1, line)
+        .map_err(|error| TakeError::line(1, format!("this is no take: {}", error.problem)).of_kind(Kind::NotATake))?;
     if any.sinew != "take" {
-        return Err(TakeError::line(1, "this is no take; name a file that `--take` wrote"));
+        return Err(TakeError::line(1, "this is no take; name a file that `--take` wrote").of_kind(Kind::NotATake));
     }
     if any.format != TAKE_FORMAT {
         let by =
             if any.version.is_empty() { String::new() } else { format!(" (written by Sinew {})", short(&any.version)) };
         let remedy = if any.format > TAKE_FORMAT { "update Sinew" } else { "record it again" };
         let problem = format!("format {}{by} is not the {TAKE_FORMAT} that this version reads; {remedy}", any.format);
-        return Err(TakeError::line(1, problem));
+        return Err(TakeError::line(1, problem).of_kind(Kind::WrongVersion));
     }
     let header: Header = parse(1, line)?;
     Ok(Take {
@@ -138,10 +138,11 @@ fn file(number: usize, line: &[u8], take: &mut Take) -> Result<(), TakeError> {
         return Err(wrong("a file stands after a command; files come first"));
     }
     if take.files.len() >= MAX_FILES {
-        return Err(TakeError::line(number, format!("more than {MAX_FILES} files; use fewer")));
+        let problem = format!("more than {MAX_FILES} files; use fewer");
+        return Err(TakeError::line(number, problem).of_kind(Kind::TooLarge));
     }
     let line: FileLine = parse(number, line)?;
-    crate::scene::allowed(&line.file).map_err(|problem| TakeError::line(number, problem))?;
+    crate::scene::allowed(&line.file).map_err(|error| TakeError::line(number, error.problem))?;
     let hash = from_hex(&line.hash).ok_or_else(|| wrong("the hash is not 16 hexadecimal digits; record it again"))?;
     let bytes = match (line.text, line.base64) {
         (Some(text), None) => Some(text.into_bytes()),
@@ -166,7 +167,8 @@ fn file(number: usize, line: &[u8], take: &mut Take) -> Result<(), TakeError> {
 fn command(number: usize, line: &[u8], take: &mut Take) -> Result<(), TakeError> {
     let CommandLine { step, command } = parse(number, line)?;
     if take.commands.len() >= MAX_COMMANDS {
-        return Err(TakeError::line(number, format!("more than {MAX_COMMANDS} commands; record a shorter run")));
+        let problem = format!("more than {MAX_COMMANDS} commands; record a shorter run");
+        return Err(TakeError::line(number, problem).of_kind(Kind::TooLarge));
     }
     if take.commands.last().is_some_and(|last| last.step > step) {
         return Err(TakeError::line(number, format!("step {step} stands after a later one; put the lines in order")));

@@ -1,7 +1,7 @@
 //! Restores the scene of a take.
 
 use super::{Take, TakeFile};
-use crate::scene::{DiskFiles, Files, Scene, SceneError};
+use crate::scene::{DiskFiles, FileError, FileErrorKind, Files, Scene, SceneError, SceneErrorKind};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,19 +14,24 @@ struct TakeFiles {
 }
 
 impl Files for TakeFiles {
-    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, String> {
-        let file = self.files.get(path).ok_or("the take was recorded without this file; record it with the file")?;
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileError> {
+        let missing = "the take was recorded without this file; record it with the file";
+        let file = self.files.get(path).ok_or_else(|| FileError::new(FileErrorKind::NotFound, missing))?;
         if let Some(bytes) = &file.bytes {
             let fits = bytes.len() as u64 <= most_bytes;
-            return if fits { Ok(bytes.to_vec()) } else { Err(format!("larger than the {most_bytes} bytes allowed")) };
+            let too_large =
+                || FileError::new(FileErrorKind::TooLarge, format!("larger than the {most_bytes} bytes allowed"));
+            return if fits { Ok(bytes.to_vec()) } else { Err(too_large()) };
         }
         let Some(disk) = &self.disk else {
-            return Err("the take holds only the hash of this large file; give the scene's folder".to_owned());
+            let problem = "the take holds only the hash of this large file; give the scene's folder";
+            return Err(FileError::new(FileErrorKind::NotFound, problem));
         };
         let bytes = disk.read(path, most_bytes)?;
         if xxhash_rust::xxh3::xxh3_64(&bytes) != file.hash {
             let place = disk.shown(path);
-            return Err(format!("{place} is not the file that the take was recorded with; put the old one back"));
+            let problem = format!("{place} is not the file that the take was recorded with; put the old one back");
+            return Err(FileError::new(FileErrorKind::Changed, problem));
         }
         Ok(bytes)
     }
@@ -50,7 +55,8 @@ impl Take {
         if (scene.stage.seed, scene.stage.physics_hz) != recorded {
             let problem =
                 "the take's first line states another seed or physics_hz than its scene; record it again".to_owned();
-            return Err(SceneError { file: self.scene.clone(), line: None, path: "stage".to_owned(), problem });
+            let (kind, path) = (SceneErrorKind::Invalid, "stage".to_owned());
+            return Err(SceneError { kind, file: self.scene.clone(), line: None, path, problem });
         }
         Ok(scene)
     }

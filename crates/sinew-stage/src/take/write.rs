@@ -2,7 +2,7 @@
 
 use super::line::{CommandLine, EndLine, FileLine, Header, hex};
 use super::read::{MAX_BYTES, MAX_COMMANDS, MAX_LINE_BYTES};
-use super::{TAKE_FORMAT, Take, TakeError};
+use super::{TAKE_FORMAT, Take, TakeError, TakeErrorKind as Kind};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::path::Path;
@@ -17,7 +17,8 @@ impl Take {
     /// As [`Take::to_bytes`], and a folder that cannot be written to.
     pub fn write(&self, path: &Path) -> Result<(), TakeError> {
         let bytes = self.to_bytes()?;
-        sinew_motion::formats::write_whole(path, &bytes).map_err(|error| TakeError::Whole(error.to_string()))
+        sinew_motion::formats::write_whole(path, &bytes)
+            .map_err(|error| TakeError::whole(Kind::Unreadable, error.to_string()))
     }
 
     /// The take file's content.
@@ -46,9 +47,8 @@ impl Take {
             add(&mut out, &FileLine { file: path.clone(), hash: hex(file.hash), text, base64 })?;
         }
         if self.commands.len() > MAX_COMMANDS {
-            return Err(TakeError::Whole(format!(
-                "more than {MAX_COMMANDS} commands cannot be recorded; record a shorter run"
-            )));
+            let problem = format!("more than {MAX_COMMANDS} commands cannot be recorded; record a shorter run");
+            return Err(TakeError::whole(Kind::TooLarge, problem));
         }
         for stamped in &self.commands {
             let start = out.len();
@@ -57,7 +57,7 @@ impl Take {
             if !again.is_ok_and(|again| again.command == stamped.command) {
                 let problem = "a command holds a number that is not finite and cannot be recorded; check commands before \
                                they are carried out";
-                return Err(TakeError::Whole(format!("step {}: {problem}", stamped.step)));
+                return Err(TakeError::whole(Kind::NotFinite, format!("step {}: {problem}", stamped.step)));
             }
         }
         let end = EndLine {
@@ -68,7 +68,8 @@ impl Take {
         };
         add(&mut out, &end)?;
         if out.len() > MAX_BYTES {
-            return Err(TakeError::Whole(format!("the take has more than {MAX_BYTES} bytes; record a shorter run")));
+            let problem = format!("the take has more than {MAX_BYTES} bytes; record a shorter run");
+            return Err(TakeError::whole(Kind::TooLarge, problem));
         }
         Ok(out)
     }
@@ -76,10 +77,12 @@ impl Take {
 
 fn add<T: serde::Serialize>(out: &mut Vec<u8>, line: &T) -> Result<(), TakeError> {
     let start = out.len();
-    serde_json::to_writer(&mut *out, line).map_err(|error| TakeError::Whole(format!("cannot be written: {error}")))?;
+    serde_json::to_writer(&mut *out, line)
+        .map_err(|error| TakeError::whole(Kind::Unreadable, format!("cannot be written: {error}")))?;
     out.push(b'\n');
     if out.len() - start > MAX_LINE_BYTES {
-        return Err(TakeError::Whole(format!("a line has more than {MAX_LINE_BYTES} bytes; use smaller files")));
+        let problem = format!("a line has more than {MAX_LINE_BYTES} bytes; use smaller files");
+        return Err(TakeError::whole(Kind::TooLarge, problem));
     }
     Ok(())
 }

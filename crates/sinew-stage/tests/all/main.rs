@@ -1,7 +1,9 @@
 //! Everything that `sinew-stage` is held to, as one program.
 
+mod edit;
 mod hostile;
 mod live;
+mod orders;
 mod runner;
 mod scene_errors;
 mod scene_sets;

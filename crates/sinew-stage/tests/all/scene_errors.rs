@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
-use sinew_stage::Scene;
+use sinew_stage::{Scene, SceneErrorKind};
 use std::collections::BTreeMap;
 
 /// Line by line, so that the tests can name lines.
@@ -369,4 +369,29 @@ fn only_what_is_a_file_is_read() {
     // A device never ends.
     #[cfg(unix)]
     assert!(Scene::read("/dev/zero".as_ref()).unwrap_err().to_string().contains("this is no file"));
+}
+
+#[test]
+fn every_fault_has_a_kind_that_a_program_can_match() {
+    use SceneErrorKind as Kind;
+    let kind = |text: &str| Scene::from_text(text).map(drop).expect_err("the scene is wrong").kind;
+    let table = [
+        ("mass_kg = 80", "mass_kg = ", Kind::Unreadable),
+        ("mass_kg = 80", "mass_lb = 80", Kind::Malformed),
+        ("mass_kg = 80", "mass_kg = \"80 kg\"", Kind::Malformed),
+        ("format = 1\n", "", Kind::Malformed),
+        ("format = 1", "format = 2", Kind::WrongVersion),
+        ("height_m = 1.7", "height_m = 170", Kind::OutOfRange),
+        ("height_m = 1.7", "height_m = nan", Kind::OutOfRange),
+        ("for_secs = 0.4", "for_secs = 1e9", Kind::OutOfRange),
+        ("pose = \"guard\"\nsource", "pose = \"gard\"\nsource", Kind::NotFound),
+        ("object = \"ball\"", "object = \"bell\"", Kind::NotFound),
+        ("pose = \"guard\"\nsource", "clip = \"walk.bvh\"\nsource", Kind::NotFound),
+        ("mass_kg = 0.6\n", "", Kind::Invalid),
+    ];
+    for (piece, other, expected) in table {
+        assert_eq!(kind(&with(piece, other)), expected, "{piece:?} to {other:?}");
+    }
+    let many: String = (0..1001).map(|at| format!("[props.p{at}]\nball_radius_m = 1\nfixed = true\n")).collect();
+    assert_eq!(kind(&format!("format = 1\n{many}")), Kind::TooLarge);
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 use sinew_control::Action;
-use sinew_stage::scene::{CameraSpec, CharacterSpec, DiskFiles, Files, StageSpec};
+use sinew_stage::scene::{CameraSpec, CharacterSpec, DiskFiles, FileError, Files, StageSpec};
 use sinew_stage::{Scene, Stage};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ fn example(page: &str) -> String {
 struct PageFiles(BTreeMap<String, Vec<u8>>, DiskFiles);
 
 impl Files for PageFiles {
-    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, String> {
+    fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileError> {
         if self.0.contains_key(path) { self.0.read(path, most_bytes) } else { self.1.read(path, most_bytes) }
     }
 

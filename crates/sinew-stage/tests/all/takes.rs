@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 use sinew_control::{Action, Command};
-use sinew_stage::take::HashTrace;
+use sinew_stage::take::{HashTrace, TakeErrorKind};
 use sinew_stage::{Scene, Take, TakeError};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -133,7 +133,9 @@ fn a_take_that_was_cut_off_is_named_so_at_every_byte() {
 fn a_command_that_could_not_be_read_again_is_not_written() {
     let mut take = take();
     take.push(8, Command::to("left", Action::Gain { factor: f64::NAN, part: None }));
-    let TakeError::Whole(said) = take.to_bytes().unwrap_err() else { panic!("concerns the whole take") };
+    let TakeError { kind: TakeErrorKind::NotFinite, line: None, problem: said } = take.to_bytes().unwrap_err() else {
+        panic!("concerns the whole take")
+    };
     assert!(said.contains("step 8") && said.contains("not finite"), "{said}");
 }
 
@@ -183,4 +185,21 @@ fn every_saved_version_still_reads() {
         versions += 1;
     }
     assert_eq!(versions, sinew_stage::take::TAKE_FORMAT, "one saved take for each version of the format");
+}
+
+#[test]
+fn every_wrong_take_has_a_kind_that_a_program_can_match() {
+    use TakeErrorKind as Kind;
+    let text = text();
+    let kind = |text: &str| Take::read(text.as_bytes()).map(drop).expect_err("the take is wrong").kind;
+    let table = [
+        ("\"sinew\":\"take\"", "\"sinew\":\"tape\"", Kind::NotATake),
+        ("\"format\":1", "\"format\":2", Kind::WrongVersion),
+        ("\"step\":0", "\"step\":9", Kind::Malformed),
+    ];
+    for (piece, other, expected) in table {
+        assert_eq!(kind(&text.replacen(piece, other, 1)), expected, "{piece} to {other}");
+    }
+    assert_eq!(kind(text.trim_end()), Kind::Incomplete);
+    assert_eq!(Take::open(Path::new("no_such.take")).unwrap_err().kind, Kind::Unreadable);
 }

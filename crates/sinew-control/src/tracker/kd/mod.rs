@@ -211,6 +211,11 @@ impl KdTracker {
         self.settings.gains = gains;
     }
 
+    /// What it follows with now: gains and weights are those that it goes to.
+    pub fn settings(&self) -> &KdSettings {
+        &self.settings
+    }
+
     /// The target gains.
     pub fn gains(&self) -> KdGains {
         self.settings.gains
