@@ -12,7 +12,7 @@ use super::{Refusal, Role, SessionError, permit};
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use quinn::{Connection, RecvStream, SendStream};
-use sinew_control::Command;
+use sinew_control::{Command, OrderError, OrderErrorKind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::SyncSender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -193,10 +193,10 @@ impl ClientConnection {
                     self.may_press(&key).and_then(|()| self.forward(ClientRequest::Press(key)))
                 }
             };
-            if let Err(problem) = queued {
+            if let Err(error) = queued {
                 count(&self.state.shared.counts.requests_refused);
                 // Notes to a client that does not read them are dropped.
-                let _ = note.try_send(problem);
+                let _ = note.try_send(error.to_string());
             }
         }
         Ok(())
@@ -229,20 +229,21 @@ impl ClientConnection {
     }
 
     /// Checks that a command names things of the scene and that its numbers are in range.
-    fn check_against_scene(&self, command: &Command) -> Result<(), String> {
+    fn check_against_scene(&self, command: &Command) -> Result<(), OrderError> {
         self.state.manifest.rules.as_ref().map_or(Ok(()), |scene| scene.check_command(command))
     }
 
-    fn may_press(&self, key: &str) -> Result<(), String> {
+    fn may_press(&self, key: &str) -> Result<(), OrderError> {
         let bound = self.state.manifest.keys.get(key).ok_or_else(|| {
             let known: Vec<&str> = self.state.manifest.keys.keys().map(String::as_str).collect();
-            format!("the scene has no key `{}`; its keys are {}", short(key), known.join(", "))
+            let problem = format!("the scene has no key `{}`; its keys are {}", short(key), known.join(", "));
+            OrderError::new(OrderErrorKind::NotFound, problem)
         })?;
         bound.iter().try_for_each(|command| permit(self.role, &self.actors, command))
     }
 
     /// Queues a request for the stage, which takes it before its next step.
-    fn forward(&self, request: ClientRequest) -> Result<(), String> {
+    fn forward(&self, request: ClientRequest) -> Result<(), OrderError> {
         let shared = &self.state.shared;
         let arrived_step = shared.step.load(Ordering::Relaxed);
         match self.state.request.try_send(QueuedRequest { request, by: Arc::clone(&self.by), arrived_step }) {
@@ -252,7 +253,8 @@ impl ClientConnection {
             }
             Err(_) => {
                 count(&shared.counts.requests_dropped);
-                Err("the queue of requests to the stage is full; send it again".to_owned())
+                let problem = "the queue of requests to the stage is full; send it again";
+                Err(OrderError::new(OrderErrorKind::TooLarge, problem))
             }
         }
     }
