@@ -21,6 +21,7 @@ pub struct Held {
     pub break_force_n: Option<f64>,
 }
 
+#[derive(Clone)]
 pub(crate) struct Attachment {
     pub held: Held,
     joint: ImpulseJointHandle,
@@ -42,6 +43,13 @@ const AROUND_M: f64 = 0.3;
 
 /// Frequency \[Hz\] and damping ratio of a soft attachment.
 const SOFT: (f64, f64) = (4.0, 0.7);
+
+impl Attachment {
+    /// Ends the joint that holds.
+    pub fn release(&self, joints: &mut ImpulseJointSet) {
+        joints.remove(self.joint, true);
+    }
+}
 
 impl World {
     /// Attaches something to a part at their present relative pose. Without effect if it is attached already.
@@ -101,7 +109,7 @@ impl World {
             let held = &attachment.held;
             let stays = !(held.character == character && held.node == node && held.object == object);
             if !stays {
-                joints.remove(attachment.joint, true);
+                attachment.release(joints);
             }
             stays
         });

@@ -27,6 +27,7 @@ pub(crate) enum Hold {
 /// Time in which the velocity of a part without forces falls to 1/e \[s\]: a push's last motion dies out within half a second.
 const DRIFT_SECS: f64 = 0.12;
 
+#[derive(Clone)]
 pub(crate) struct Character {
     pub spec: CharacterSpec,
     pub bodies: [RigidBodyHandle; Node::COUNT],

@@ -6,7 +6,7 @@ use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
 /// The filter as a hook of the rigid-body library.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct CollisionFilter {
     /// Self-collision, by character and part: a bit for each of its own parts that it passes through.
     pub own: Vec<[u32; Node::COUNT]>,
@@ -19,6 +19,17 @@ impl CollisionFilter {
     pub fn add_character(&mut self, character: CharacterId) {
         self.own.resize(self.own.len().max(character.slot() + 1), [0; Node::COUNT]);
         self.own[character.slot()] = [0; Node::COUNT];
+    }
+
+    /// Forgets a character.
+    pub fn remove_character(&mut self, character: CharacterId) {
+        self.add_character(character);
+        self.props.retain(|(owner, ..)| *owner != character);
+    }
+
+    /// Forgets a prop.
+    pub fn remove_prop(&mut self, prop: PropId) {
+        self.props.retain(|(.., other)| *other != prop);
     }
 
     /// Whether a part passes through anything.

@@ -6,6 +6,7 @@ use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
 
 /// A shape that was added.
+#[derive(Clone)]
 pub(crate) struct ExtraShape {
     pub node: Node,
     pub name: String,

@@ -29,6 +29,7 @@
 mod attachment;
 mod character;
 mod check;
+mod clone;
 mod collision_filter;
 mod drive;
 mod engine;
@@ -45,6 +46,7 @@ mod prop_joint;
 mod ragdoll;
 mod reaction_body;
 mod readback;
+mod remove;
 mod rows;
 mod sanitize;
 mod settings;

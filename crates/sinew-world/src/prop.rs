@@ -6,6 +6,7 @@ use crate::{Entity, Motion, PropId, PropSpec, SpecError, sanitize};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 
+#[derive(Clone)]
 pub(crate) struct Prop {
     pub spec: PropSpec,
     pub handle: RigidBodyHandle,

@@ -106,6 +106,7 @@ const PLACE_SECS: f64 = 0.1;
 /// Joints of props in a world.
 const MAX_JOINTS: usize = 10_000;
 
+#[derive(Clone)]
 pub(crate) struct PropJoint {
     spec: PropJointSpec,
     /// `None` once it is cut.
@@ -176,9 +177,7 @@ impl World {
             self.count_stale();
             return false;
         };
-        let Some(handle) = joint.handle.take() else { return false };
-        self.engine.joints.remove(handle, true);
-        true
+        joint.cut(&mut self.engine.joints)
     }
 
     /// The present state of a joint. One that does not exist is not whole.
@@ -232,6 +231,18 @@ impl World {
 }
 
 impl PropJoint {
+    /// Ends it. False when it was cut or broken before.
+    pub fn cut(&mut self, joints: &mut ImpulseJointSet) -> bool {
+        let Some(handle) = self.handle.take() else { return false };
+        joints.remove(handle, true);
+        true
+    }
+
+    /// Whether it fastens something that is meant.
+    pub fn fastens(&self, is_it: impl Fn(Entity) -> bool) -> bool {
+        self.spec.between.iter().any(|&entity| is_it(entity))
+    }
+
     fn place_now(&self, bodies: &RigidBodySet) -> f64 {
         let [Some(one), Some(other)] = self.bodies.map(|handle| bodies.get(handle)) else { return 0.0 };
         self.place(one, other).0

@@ -36,6 +36,11 @@ impl World {
 }
 
 impl ReactionBody {
+    /// Whether the pins push off from this body.
+    pub fn is_on(&self, handle: RigidBodyHandle) -> bool {
+        self.prop == handle
+    }
+
     /// Applies the reaction to the prop for the next step.
     pub fn press(&mut self, engine: &mut Engine, parts: &[RigidBodyHandle; Node::COUNT], pins: &[Before; Node::COUNT]) {
         let Some(prop) = engine.bodies.get(self.prop).filter(|prop| prop.is_dynamic()) else { return };

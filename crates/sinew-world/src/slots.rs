@@ -5,11 +5,13 @@ use std::marker::PhantomData;
 
 /// Values by slot. A value that is removed leaves its slot vacant; the next that is inserted takes the first vacant slot, under
 /// the slot's next generation.
+#[derive(Clone)]
 pub(crate) struct Slots<I, T> {
     slots: Vec<Slot<T>>,
     ids: PhantomData<I>,
 }
 
+#[derive(Clone)]
 struct Slot<T> {
     /// Of the value that is there, or of the next.
     generation: u32,

@@ -8,6 +8,7 @@ mod falls;
 mod flight;
 mod holds;
 mod hostile;
+mod kept;
 mod meter;
 mod prop_joints;
 mod springs;
