@@ -65,8 +65,8 @@ pub trait Snapshot {
     /// Replaces the state by what `from` holds, and reads exactly as many bytes as [`Snapshot::save`] wrote.
     ///
     /// # Errors
-    /// When the bytes end too early, hold a value that the type cannot have, or were saved by something of another shape.
-    /// The value is then partly restored and must not be used before something else was restored into it: whoever restores a whole out
-    /// of parts keeps the old state until all of the new one is in.
+    /// When the bytes end too early, hold a value that the type cannot have, or were saved by something of another
+    /// shape. The value is then partly restored and must not be used before something else was restored into it: code
+    /// that restores a whole out of parts keeps the old state until all of the new one is in.
     fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError>;
 }

@@ -108,7 +108,7 @@ impl Stage {
         Effect::ScriptStopped { controller: name.to_owned(), reason: reason.to_owned() }
     }
 
-    /// Calls every script that runs, in the order of the characters, then of the props, and obeys it.
+    /// Calls every script that runs, in the order of the characters, then of the props, and applies its commands.
     pub(crate) fn step_scripts(&mut self, step: u64) {
         let owners = self.owners();
         if !owners.iter().any(|&owner| self.is_called(owner)) {

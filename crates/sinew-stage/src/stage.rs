@@ -72,7 +72,7 @@ impl Stage {
     /// ```
     ///
     /// # Errors
-    /// When a clip cannot be read, a pose does not suit its body, a shape is none or a script does not start.
+    /// A clip cannot be read, a pose does not fit its body, a shape is degenerate or a script does not start.
     pub fn new(scene: Scene, host: Option<ScriptHost>) -> Result<Stage, StageError> {
         let scene = Arc::new(scene);
         let cast = Cast::of(&scene);

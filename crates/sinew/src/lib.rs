@@ -35,8 +35,8 @@
 //! | `session` | one stage for actors on several machines; brings QUIC and tokio along |
 //! | `threads` | crowds step on several threads; same bits |
 //!
-//! Brings along fewer than 130 crates; with `session` about 40 more. Each room is a crate of its own for whoever needs less:
-//! `sinew-response` alone, pose in and pose out, brings fewer than 30.
+//! Brings along fewer than 130 crates; with `session` about 40 more. Each room is a crate of its own, for smaller
+//! dependencies: `sinew-response` alone, pose in and pose out, brings fewer than 30.
 //!
 //! What it does not do: arguments, terminals, running Python in your process.
 

@@ -7,5 +7,5 @@ mod session_bytes;
 #[cfg(feature = "session")]
 mod session_hostile;
 #[cfg(feature = "session")]
-mod session_house;
+mod session_setup;
 mod streams;

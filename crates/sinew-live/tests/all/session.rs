@@ -1,7 +1,7 @@
 //! Several clients, one stage: over loopback, and over a relay that is bad network.
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails as the test does")]
 
-use crate::session_house::{ServerState, agree, join, replayed, until, watch_until};
+use crate::session_setup::{ServerState, agree, join, replayed, until, watch_until};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 use sinew_control::perform::PerformerSample;

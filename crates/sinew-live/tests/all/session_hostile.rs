@@ -1,7 +1,7 @@
 //! Peers that mean harm, or are just broken: they harm themselves, and nobody else notices.
 #![allow(clippy::unwrap_used, reason = "a helper of a test fails as the test does")]
 
-use crate::session_house::{ServerState, agree, join, until, watch_until};
+use crate::session_setup::{ServerState, agree, join, until, watch_until};
 use quinn::crypto::rustls::QuicClientConfig;
 use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, ServerCertVerifier};
 use rustls::pki_types::{CertificateDer, ServerName, UnixTime};

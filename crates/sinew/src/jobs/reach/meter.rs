@@ -44,7 +44,7 @@ const STILL_SECS: f64 = 1.0 / 60.0;
 /// What of a sole is higher than its lowest corner by this carries nothing \[m\].
 const RISEN_M: f64 = 0.01;
 
-/// A body within this of its target is there \[m\]: what springs hold gives way by millimetres.
+/// Distance from its target at which a body counts as arrived \[m\]: bodies held by springs yield by millimetres.
 const THERE_M: f64 = 0.02;
 
 impl ReachMeter {
