@@ -8,6 +8,8 @@ use sinew_world::{CharacterId, World};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limp;
 
+sinew_snapshot::snapshot!(Limp {});
+
 impl Limp {
     /// See [`Tracker::honours`].
     pub const HONOURS: Honours = Honours::NOTHING;

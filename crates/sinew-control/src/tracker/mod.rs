@@ -25,6 +25,7 @@ pub use response::ResponseTracker;
 
 use crate::Wanted;
 use sinew_body::humanoid::Pose;
+use sinew_snapshot::Snapshot;
 use sinew_world::{CharacterId, World};
 use std::any::Any;
 use std::fmt::Debug;
@@ -49,7 +50,7 @@ pub struct TakeOver<'a> {
     pub motion: Option<&'a dyn Fn(f64) -> Pose>,
 }
 
-/// Makes one character's body follow what is wanted.
+/// Makes one character's body follow what is wanted. What it remembers is kept by [`Snapshot`].
 ///
 /// Before each step of the world: when [`wants`](Tracker::wants) says so, bring [`Wanted`] up to date, then
 /// [`follow`](Tracker::follow). Neither allocates or panics. The character is a place in the world's frame.
@@ -75,7 +76,7 @@ pub struct TakeOver<'a> {
 /// assert!((world.frame().characters[character.slot()].parts[0].position.x - 0.6).abs() < 1e-3);
 /// # Ok::<(), sinew_world::SpecError>(())
 /// ```
-pub trait Tracker: Any + Debug + Send + Sync {
+pub trait Tracker: Snapshot + Any + Debug + Send + Sync {
     /// Its kind.
     fn kind(&self) -> TrackerKind;
 

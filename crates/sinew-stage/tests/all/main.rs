@@ -11,3 +11,4 @@ mod scenes_page;
 mod schema;
 mod stage;
 mod takes;
+mod timeline;
