@@ -194,3 +194,25 @@ fn a_world_can_be_sent_and_shared_between_threads() {
     fn is<T: Send + Sync>() {}
     is::<World>();
 }
+
+#[test]
+fn what_came_and_went_before_the_first_step_changes_no_motion() {
+    let body = adult();
+    let run = |guest: bool| {
+        let mut world = World::new(WorldSettings::default());
+        let one = world.add_character(spec(&body, standing(&body))).unwrap();
+        hold(&mut world, one, 3.0);
+        if guest {
+            let character = world.add_character(spec(&body, lifted(&body, odd_pose(&body, 3, 0.7), 0.5))).unwrap();
+            let prop = world.add_prop(ball(DVec3::Y * 0.5)).unwrap();
+            world.remove_character(character).unwrap();
+            world.remove_prop(prop).unwrap();
+        }
+        world.add_prop(PropSpec { velocity: DVec3::NEG_Z * 4.0, ..ball(DVec3::new(0.0, 1.2, 2.0)) }).unwrap();
+        (0..240).for_each(|_| world.step());
+        let frame = world.frame();
+        let parts = frame.characters[one.slot()].parts.iter().chain(&frame.props[..1]);
+        parts.flat_map(|part| part.position.to_array()).map(f64::to_bits).collect::<Vec<_>>()
+    };
+    assert!(run(false) == run(true));
+}
