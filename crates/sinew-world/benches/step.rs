@@ -85,6 +85,11 @@ fn steps(criterion: &mut Criterion) {
             world
         });
     }
+    // A world kept in memory, to be put back later.
+    criterion.bench_function("clone/1", |bencher| {
+        let world = crowd(1);
+        bencher.iter(|| world.clone());
+    });
     criterion.bench_function("asleep", |bencher| {
         let mut world = World::new(WorldSettings::default());
         world.add_character(spec(&body, lifted(&body, common::supine(), 0.02))).expect("a body");
