@@ -206,9 +206,11 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
             actor.set_layer(layer, spec.layers.contains(&layer));
         }
         match &spec.source {
-            Some(SourceSpec { pose: Some(pose), .. }) => actor.sources.aim(pose).map(|_| ()).map_err(wrong)?,
+            Some(SourceSpec { pose: Some(pose), .. }) => {
+                actor.sources.aim(pose).map_err(|error| wrong(error.to_string()))?;
+            }
             Some(SourceSpec { graph: Some(graph), state, .. }) => {
-                actor.sources.start_graph(graph, state.as_deref()).map_err(wrong)?;
+                actor.sources.start_graph(graph, state.as_deref()).map_err(|error| wrong(error.to_string()))?;
             }
             _ => {}
         }

@@ -4,6 +4,7 @@ use super::{Moment, Source, SourceEvent};
 use crate::graph::{Graph, GraphPlayer};
 use crate::ik::Reach;
 use crate::pose::{KeyPose, PosePlayer};
+use crate::{OrderError, OrderErrorKind};
 use crate::{Root, Wanted};
 use glam::DVec3;
 use sinew_body::humanoid::{Limb, Node};
@@ -28,7 +29,7 @@ pub struct PoseBook {
 /// use sinew_control::source::{KeyPoses, PoseBook};
 /// let book = PoseBook { poses: [(STAND.to_owned(), KeyPose::STAND)].into(), ..PoseBook::default() };
 /// let mut source = KeyPoses::new(book.into(), STAND, 1.0 / 240.0);
-/// assert_eq!(source.aim("crouch"), Err("no pose `crouch`; there are stand".to_owned()));
+/// assert_eq!(source.aim("crouch").unwrap_err().to_string(), "no pose `crouch`; there are stand");
 /// ```
 #[derive(Clone, Debug)]
 pub struct KeyPoses {
@@ -78,7 +79,7 @@ impl KeyPoses {
     ///
     /// # Errors
     /// The pose does not exist; lists the known ones.
-    pub fn aim(&mut self, name: &str) -> Result<(), String> {
+    pub fn aim(&mut self, name: &str) -> Result<(), OrderError> {
         let pose = self.book.poses.get(name).ok_or_else(|| unknown("pose", name, self.book.poses.keys()))?;
         self.player.aim(pose);
         self.player.ik.release_all();
@@ -91,14 +92,15 @@ impl KeyPoses {
     ///
     /// # Errors
     /// The graph or state does not exist; lists the known ones.
-    pub fn start_graph(&mut self, name: &str, state: Option<&str>) -> Result<(), String> {
+    pub fn start_graph(&mut self, name: &str, state: Option<&str>) -> Result<(), OrderError> {
         let graph = self.book.graphs.get(name).ok_or_else(|| unknown("graph", name, self.book.graphs.keys()))?;
         let mut player = GraphPlayer::new(graph, self.step_secs);
         if let Some(state) = state
             && !player.jump(graph, state)
         {
             let states: Vec<&str> = graph.state_names().collect();
-            return Err(format!("no state `{state}`; there are {}", states.join(", ")));
+            let problem = format!("no state `{state}`; there are {}", states.join(", "));
+            return Err(OrderError::new(OrderErrorKind::NotFound, problem));
         }
         self.player.aim(player.pose(graph));
         self.pose = player.pose_name(graph).to_owned();
@@ -116,8 +118,11 @@ impl KeyPoses {
     ///
     /// # Errors
     /// The part does not belong to a limb.
-    pub fn reach(&mut self, node: Node, target: DVec3, effector: DVec3) -> Result<bool, String> {
-        let limb = Limb::of(node).ok_or_else(|| format!("{} is no part of an arm or a leg", node.part()))?;
+    pub fn reach(&mut self, node: Node, target: DVec3, effector: DVec3) -> Result<bool, OrderError> {
+        let limb = Limb::of(node).ok_or_else(|| {
+            let problem = format!("{} is no part of an arm or a leg", node.part());
+            OrderError::new(OrderErrorKind::WrongTarget, problem)
+        })?;
         let is_new = self.player.ik.of(limb).is_none_or(|before| before.target != target);
         self.player.ik.reach(limb, Reach { target, effector });
         Ok(is_new)
@@ -187,7 +192,7 @@ impl Source for KeyPoses {
     }
 }
 
-fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a String>) -> String {
+fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a String>) -> OrderError {
     let known: Vec<&str> = known.map(String::as_str).collect();
-    format!("no {what} `{name}`; there are {}", known.join(", "))
+    OrderError::new(OrderErrorKind::NotFound, format!("no {what} `{name}`; there are {}", known.join(", ")))
 }

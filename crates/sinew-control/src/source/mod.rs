@@ -12,7 +12,7 @@ pub use hand_over::{HAND_OVER_SECS, handed_over};
 pub use key_poses::{KeyPoses, PoseBook};
 pub use performer::{Performer, StreamChange};
 pub use reach::{Aimed, HANDS, HandArrival, ReachArrival, ReachSource};
-pub use sources::{NO_PERFORMER, Sources};
+pub use sources::{Sources, no_performer};
 
 use crate::graph::Cause;
 use crate::{Root, Wanted};

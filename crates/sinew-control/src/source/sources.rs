@@ -3,6 +3,7 @@
 use super::reach::ReachStep;
 use super::{KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, handed_over};
 use crate::{FreeRoot, Root, Wanted};
+use crate::{OrderError, OrderErrorKind};
 use sinew_body::humanoid::{Body, Pose};
 use sinew_world::{CharacterFrame, CharacterId, Frame};
 use std::any::Any;
@@ -104,7 +105,7 @@ impl Sources {
     ///
     /// # Errors
     /// When there is no such pose: which there are.
-    pub fn aim(&mut self, name: &str) -> Result<bool, String> {
+    pub fn aim(&mut self, name: &str) -> Result<bool, OrderError> {
         let is_alone = self.reach.is_none() && !self.is_performed();
         if is_alone && self.key_poses().is_some_and(|poses| poses.is_at(name)) {
             return Ok(false);
@@ -117,7 +118,7 @@ impl Sources {
     ///
     /// # Errors
     /// When there is no such graph or state: which there are.
-    pub fn start_graph(&mut self, name: &str, state: Option<&str>) -> Result<(), String> {
+    pub fn start_graph(&mut self, name: &str, state: Option<&str>) -> Result<(), OrderError> {
         self.follow_key_poses(|poses| poses.start_graph(name, state))
     }
 
@@ -125,8 +126,8 @@ impl Sources {
     ///
     /// # Errors
     /// When it has no performer.
-    pub fn follow_performer(&mut self, on: bool) -> Result<(), String> {
-        let Some(performer) = &mut self.performer else { return Err(NO_PERFORMER.to_owned()) };
+    pub fn follow_performer(&mut self, on: bool) -> Result<(), OrderError> {
+        let Some(performer) = &mut self.performer else { return Err(no_performer()) };
         performer.follow(on);
         if on {
             match self.key_poses_mut() {
@@ -138,7 +139,10 @@ impl Sources {
     }
 
     /// Changes the key poses and follows them; those of a character that has followed something else begin in their first pose.
-    fn follow_key_poses(&mut self, change: impl FnOnce(&mut KeyPoses) -> Result<(), String>) -> Result<(), String> {
+    fn follow_key_poses(
+        &mut self,
+        change: impl FnOnce(&mut KeyPoses) -> Result<(), OrderError>,
+    ) -> Result<(), OrderError> {
         if let Some(poses) = self.key_poses_mut() {
             change(poses)?;
         } else {
@@ -283,4 +287,7 @@ impl Sources {
 }
 
 /// The error without a performer.
-pub const NO_PERFORMER: &str = "it has no performer; write source = { live = {} } in its table";
+pub fn no_performer() -> OrderError {
+    let problem = "it has no performer; write source = { live = {} } in its table";
+    OrderError::new(OrderErrorKind::NotHonoured, problem)
+}

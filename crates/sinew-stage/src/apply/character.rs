@@ -7,7 +7,7 @@ use crate::order::{CharacterOrder as O, Undo};
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::OrderError;
-use sinew_control::source::{NO_PERFORMER, Performer};
+use sinew_control::source::{Performer, no_performer};
 use sinew_world::{CharacterId, Entity};
 
 /// Why a limb does not reach.
@@ -19,7 +19,7 @@ impl Stage {
         let done = match order {
             O::Pose { name } => {
                 let before = self.source_order(id);
-                if !self.actors[id.slot()].sources.aim(name).map_err(wrong_state)? {
+                if !self.actors[id.slot()].sources.aim(name)? {
                     // It aims there already: a script says so at every step.
                     return Ok(None);
                 }
@@ -27,7 +27,7 @@ impl Stage {
             }
             O::Graph { name, state } => {
                 let before = self.source_order(id);
-                self.actors[id.slot()].sources.start_graph(name, state.as_deref()).map_err(wrong_state)?;
+                self.actors[id.slot()].sources.start_graph(name, state.as_deref())?;
                 (E::Graph { graph: name.clone() }, before.map_or(Undo::Impossible, back))
             }
             O::Signal { name } => {
@@ -38,7 +38,7 @@ impl Stage {
                 let limb = node.or_else(|| self.holding_part(id)).unwrap_or(Node::RightHand);
                 let effector = self.effector(id, limb);
                 let poses = self.actors[id.slot()].sources.key_poses_mut().ok_or_else(|| wrong_state(NO_KEY_POSES))?;
-                if !poses.reach(limb, *target, effector).map_err(wrong_state)? {
+                if !poses.reach(limb, *target, effector)? {
                     return Ok(None);
                 }
                 (E::LimbReaches { node: limb, target: *target }, back(O::LimbRelease { node: Some(limb) }))
@@ -97,13 +97,12 @@ impl Stage {
             O::Perform(sample) => {
                 // Many a second: what came of them is counted, not told.
                 let now_secs = self.world.frame().time_secs;
-                let performer =
-                    self.actors[id.slot()].sources.performer_mut().ok_or_else(|| wrong_state(NO_PERFORMER))?;
+                let performer = self.actors[id.slot()].sources.performer_mut().ok_or_else(no_performer)?;
                 performer.source_mut().receive(sample, now_secs);
                 return Ok(None);
             }
             O::Live { on } => {
-                self.actors[id.slot()].sources.follow_performer(*on).map_err(wrong_state)?;
+                self.actors[id.slot()].sources.follow_performer(*on)?;
                 (E::Live { on: *on }, back(O::Live { on: !*on }))
             }
             O::Say { text } => (E::Says { text: text.clone() }, Undo::Impossible),
