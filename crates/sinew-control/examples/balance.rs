@@ -11,7 +11,7 @@ mod pushed;
 
 use glam::DVec3;
 use pushed::{GUARD, KNEES_BENT, Outcome, Place, Push, STRIDE, Standing, Turns, outcome, stood_n_s};
-use sinew_body::humanoid::{Body, Node, log};
+use sinew_body::humanoid::{Body, Node, log, support_margin_m};
 use sinew_control::reflex::BalanceSettings;
 use sinew_picture::{Arrow, Camera, Capsule, Figure, Filmstrip, Panel, Shade, Style};
 use sinew_world::CharacterId;
@@ -106,7 +106,7 @@ fn report(standing: &Standing) {
         load(Node::RightFoot),
         1.0 - soles(Node::LeftFoot).y,
         1.0 - soles(Node::RightFoot).y,
-        sinew_world::margin(&me.support, me.centre_of_mass),
+        support_margin_m(&me.support, me.centre_of_mass),
         bend(Node::Neck),
         bend(Node::Head),
         log(me.part(Node::LeftFoot).rotation).y * 57.3,

@@ -2,7 +2,7 @@
 
 use crate::{CharacterId, ExternalForces, PropId, margin};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Node, Pose};
+use sinew_body::humanoid::{Node, Pose, support_margin_m};
 
 /// A body that can have contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -119,7 +119,7 @@ impl CharacterFrame {
     /// Stability margin: distance of the centre of mass inside the support polygon, seen from above \[m\]; negative
     /// outside, `None` in the air.
     pub fn support_margin_m(&self) -> Option<f64> {
-        Some(margin(&self.support, self.centre_of_mass)).filter(|margin| margin.is_finite())
+        Some(support_margin_m(&self.support, self.centre_of_mass)).filter(|margin| margin.is_finite())
     }
 
     /// Horizontal unit vector to the character's left.

@@ -53,7 +53,6 @@ mod settings;
 mod slots;
 mod solid;
 mod spec;
-mod support;
 mod warm_start;
 mod world;
 
@@ -70,5 +69,4 @@ pub use ragdoll::{hips_over_soles_m, never_collide, outboard_inertias, part_soli
 pub use settings::{Surface, WorldSettings};
 pub use solid::{Form, RING_PIECES, Solid, ring_corners};
 pub use spec::{CharacterSpec, Motion, PropSpec, SpecError};
-pub use support::{keep_hull, margin};
 pub use world::{MAX_FORCE_N, PartShape, World};

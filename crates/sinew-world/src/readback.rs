@@ -4,11 +4,10 @@ use crate::character::Character;
 use crate::engine::untag;
 use crate::frame::{BodyState, CharacterFrame, Contact, Entity};
 use crate::sanitize::is_place;
-use crate::support::keep_hull;
 use crate::{CharacterId, ExternalForces, PropId, World, ragdoll};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
-use sinew_body::humanoid::Node;
+use sinew_body::humanoid::{Node, keep_support_hull};
 
 /// Buffers that a step reuses.
 #[derive(Default)]
@@ -179,7 +178,7 @@ impl World {
             let points =
                 self.readback.standing.iter().filter(|(owner, _)| owner.slot() == slot).map(|(_, point)| *point);
             character.support.extend(points);
-            keep_hull(&mut character.support, &mut self.readback.hull);
+            keep_support_hull(&mut character.support, &mut self.readback.hull);
         }
     }
 

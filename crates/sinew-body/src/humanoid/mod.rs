@@ -12,6 +12,7 @@ mod pose;
 mod reduction;
 mod rotation;
 mod sole;
+mod support;
 
 pub use body::{Body, Link, Shape};
 pub use leg::{LegPose, shift_within_reach, solve_leg};
@@ -23,3 +24,4 @@ pub use pose::Pose;
 pub use reduction::{Person, Reduction, ReductionError};
 pub use rotation::{exp, log, swing_twist};
 pub use sole::Sole;
+pub use support::{keep_support_hull, support_margin_m};

@@ -3,7 +3,8 @@
 use super::names::{Thing, Touchable};
 use super::spec::Quantity;
 use glam::DVec3;
-use sinew_world::{BodyState, CharacterFrame, CharacterId, Entity, Frame, margin};
+use sinew_body::humanoid::support_margin_m;
+use sinew_world::{BodyState, CharacterFrame, CharacterId, Entity, Frame};
 
 /// A measured value and its thresholds, names resolved.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +57,7 @@ impl Sensor {
 
 /// How far the centre of mass lies inside the support polygon \[m\].
 fn com_margin_m(character: &CharacterFrame) -> f64 {
-    margin(&character.support, character.centre_of_mass).max(IN_THE_AIR_M)
+    support_margin_m(&character.support, character.centre_of_mass).max(IN_THE_AIR_M)
 }
 
 fn tilt_deg(body: &BodyState) -> f64 {

@@ -3,9 +3,9 @@
 
 use crate::common::{adult, fallen, floor_impulse, hold, lifted, prone, spec, standing, steps, supine};
 use glam::DVec3;
-use sinew_body::humanoid::Node;
+use sinew_body::humanoid::{Node, support_margin_m};
 use sinew_world::{
-    CharacterId, Entity, Form, Motion, PartShape, PropId, PropSpec, Solid, Surface, World, WorldSettings, margin,
+    CharacterId, Entity, Form, Motion, PartShape, PropId, PropSpec, Solid, Surface, World, WorldSettings,
 };
 
 fn crate_of(mass_kg: f64, position: DVec3) -> PropSpec {
@@ -86,7 +86,7 @@ fn a_standing_body_touches_the_floor_with_its_feet_alone_and_stands_on_their_hul
     }
     let one = &world.frame().characters[0];
     assert!(one.support.len() >= 4, "{:?}", one.support);
-    let inside = margin(&one.support, one.centre_of_mass);
+    let inside = support_margin_m(&one.support, one.centre_of_mass);
     // The ankle stands a quarter of the foot's length before the heel.
     assert!(inside > 0.02, "margin {inside} m");
 }

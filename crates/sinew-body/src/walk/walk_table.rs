@@ -1,6 +1,6 @@
 //! The mean walk of seven people, as Fourier series over the stride.
 //!
-//! Made by `cargo run -p sinew --example measure_walk` from one gait cycle each of the clips CMU 02_01, 07_01, 08_01, 16_15,
+//! Made by `cargo run -p sinew-body --example measure_walk` from one gait cycle each of the clips CMU 02_01, 07_01, 08_01, 16_15,
 //! 35_01, ACCAD Female1_B03_Walk1 and bvh-toolbox walk01. These are means over people and over both sides, not the data.
 //!
 //! The data used in this project was obtained from mocap.cs.cmu.edu. The database was created with funding from NSF

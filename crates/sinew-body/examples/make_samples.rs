@@ -1,9 +1,10 @@
-//! Writes the sample walk: `cargo run -p sinew --example make_samples [FOLDER]`, by default into `samples/` at the root of
+//! Writes the sample walk: `cargo run -p sinew-body --example make_samples [FOLDER]`, by default into `samples/` at the root of
 //! the repository, and checks that both files read back as the same motion.
 
-use sinew::sample::Walk;
+use sinew_body::humanoid::Shape;
+use sinew_body::walk::Walk;
 use sinew_motion::Limits;
-use sinew_motion::formats::{Format, WriteJob, bvh, gltf};
+use sinew_motion::formats::{BodyShape, Format, WriteJob, bvh, gltf};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
@@ -18,7 +19,9 @@ pub fn files() -> Result<[File; 2], Box<dyn Error>> {
     let mut text = Vec::new();
     bvh::write(&mut text, &job)?;
     let mut binary = Vec::new();
-    gltf::write(&mut binary, &job, Format::Glb, &walk.body_shapes())?;
+    let shape = |(joint, shape): (usize, Shape)| BodyShape { joint, from: shape.from, to: shape.to, radius_m: shape.from_radius_m };
+    let shapes: Vec<BodyShape> = walk.shapes().into_iter().map(shape).collect();
+    gltf::write(&mut binary, &job, Format::Glb, &shapes)?;
     Ok([("walk.bvh", text), ("walk.glb", binary)])
 }
 

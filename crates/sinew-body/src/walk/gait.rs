@@ -9,33 +9,19 @@
 //!
 //! Everything is told for the left leg. The right one is its mirror image half a stride later.
 
-use super::frame::Frame;
-use super::series::{Jet, Series, Waves, project, quintic, smooth_step};
-use super::walk_table::MEAN_WALK_DEG;
+use super::measured::{measured, measured_leg};
+use super::series::{Jet, ORDER, Series, Waves, project, quintic};
+use super::skeleton::WalkSkeleton;
+use super::stance::{LANDS, LEAVES, roll, standing, weight};
+use crate::humanoid::{LegPose, Node, exp, log, solve_leg};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{LegPose, Node, exp, log, solve_leg};
 
-/// Phase at which the left heel lands: feet land a few hundredths of a stride after they are farthest ahead.
-const LANDS: f64 = 0.055;
-/// Phase at which the sole is flat.
-const FLAT: f64 = 0.15;
-/// Phases between which the heel begins to rise.
-const RISES: [f64; 2] = [0.30, 0.48];
-/// Phase at which the tip of the toes leaves the floor; the other foot has landed at 0.555.
-const LEAVES: f64 = 0.63;
-/// Phases between which the foot would roll over the tip of its toes, and how far \[rad\], if it did not leave before: the
-/// measured feet rise by 3 cm more than a foot that turns about its ball.
-const OVER_TOES: ([f64; 2], f64) = ([0.51, 0.70], 0.6);
 /// Phase at which the toes, bent by the push, are relaxed, and their bend then \[rad\].
 const RELAXED: (f64, f64) = (0.82, -0.12);
 /// A foot leaves for its measured path, and comes from it to its place, within this \[strides\].
 const FADE: f64 = 0.2;
 /// Phases looked at for the path of the hips.
 const SAMPLES: usize = 128;
-/// How far the foot turns out while it stands \[rad\]: 6°, usual for adults.
-const TOE_OUT_RAD: f64 = 0.105;
-/// The toes are bent up by this share of the foot's own angle when it lands on the heel.
-const TOES_UP: f64 = 0.4;
 /// Least bend of a knee that a leg is left with \[rad\]: 9°. The mean walk's own least is 12°, and the straighter a knee, the
 /// harder it turns for a millimetre that its ankle is moved.
 const MIN_FLEXION_RAD: f64 = 0.16;
@@ -47,7 +33,7 @@ const STEP: f64 = 1e-3;
 /// A symmetric walk of a body, by phase.
 #[derive(Clone, Debug)]
 pub(super) struct Gait {
-    pub frame: Frame,
+    pub skeleton: WalkSkeleton,
     /// Swing of the angles relative to the mean walk's.
     gain: f64,
     pub stride_m: f64,
@@ -63,16 +49,6 @@ pub(super) struct Gait {
     lift_m: f64,
 }
 
-/// The measured left leg from the hips' origin, axes of the world.
-struct Leg {
-    thigh: DQuat,
-    shank: DQuat,
-    foot: DQuat,
-    hip: DVec3,
-    knee: DVec3,
-    ankle: DVec3,
-}
-
 /// A leg as it is shown: `world_from_node` of its bodies, the bend of the toes, the ankle's place in the world.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShownLeg {
@@ -81,97 +57,6 @@ pub(super) struct ShownLeg {
     pub foot: DQuat,
     pub toes: DQuat,
     pub ankle: DVec3,
-}
-
-/// The mirror image of a turn, left for right.
-pub(super) fn mirrored(rotation: DQuat) -> DQuat {
-    DQuat::from_xyzw(rotation.x, -rotation.y, -rotation.z, rotation.w)
-}
-
-/// How much a node's swing grows with the stride. A longer stride opens the hips and swings the arms; knees and ankles must
-/// clear the floor in any stride and change half as much.
-fn node_gain(node: Node, gain: f64) -> f64 {
-    match node {
-        Node::LeftLowerLeg | Node::LeftFoot => 0.5 + 0.5 * gain,
-        Node::Neck | Node::Head | Node::LeftShoulder | Node::LeftHand => 1.0,
-        _ => gain,
-    }
-}
-
-/// The node's row in the table.
-fn row(node: Node) -> &'static [Series; 3] {
-    let at = match node {
-        Node::LeftUpperLeg => 8,
-        Node::LeftLowerLeg => 9,
-        Node::LeftFoot => 10,
-        other => other.index().min(7),
-    };
-    &MEAN_WALK_DEG[at]
-}
-
-/// `parent_from_node` of a midline or left node.
-fn measured(node: Node, waves: &Waves, gain: f64) -> DQuat {
-    let gain = node_gain(node, gain);
-    exp(DVec3::from_array(row(node).each_ref().map(|series| waves.value(series, gain).to_radians())))
-}
-
-fn measured_leg(frame: &Frame, phase: f64, gain: f64) -> Leg {
-    let waves = Waves::at(phase);
-    let hips = measured(Node::Hips, &waves, gain);
-    let thigh = hips * measured(Node::LeftUpperLeg, &waves, gain);
-    let shank = thigh * measured(Node::LeftLowerLeg, &waves, gain);
-    let foot = shank * measured(Node::LeftFoot, &waves, gain);
-    let offset = |node: Node| frame.body.link(node).offset;
-    let hip = hips * offset(Node::LeftUpperLeg);
-    let knee = hip + thigh * offset(Node::LeftLowerLeg);
-    Leg { thigh, shank, foot, hip, knee, ankle: knee + shank * offset(Node::LeftFoot) }
-}
-
-/// How a foot stands: how far it points down, and how far its toes do \[rad\].
-#[derive(Clone, Copy)]
-struct Roll {
-    foot: f64,
-    /// While the foot stands on its heel, they are bent up and this is not used.
-    toes: f64,
-}
-
-impl Roll {
-    /// Turn of the toes against the foot.
-    fn bend(self) -> f64 {
-        if self.foot < 0.0 { TOES_UP * self.foot } else { self.toes - self.foot }
-    }
-}
-
-/// How the left foot rolls while it stands.
-fn roll(frame: &Frame, phase: f64, gain: f64) -> Roll {
-    let forward = measured_leg(frame, phase, gain).foot * DVec3::Z;
-    let down = libm::atan2(-forward.y, (forward.x * forward.x + forward.z * forward.z).sqrt());
-    let toes = OVER_TOES.1 * smooth_step(OVER_TOES.0[0], OVER_TOES.0[1], phase);
-    if phase < 0.5 * (FLAT + RISES[0]) {
-        Roll { foot: down * (1.0 - smooth_step(LANDS, FLAT, phase)), toes }
-    } else {
-        Roll { foot: down * smooth_step(RISES[0], RISES[1], phase), toes }
-    }
-}
-
-/// The standing left foot's turn, and its ankle relative to where it is while flat.
-fn standing(frame: &Frame, roll: Roll) -> (DQuat, DVec3) {
-    let heading = exp(DVec3::Y * TOE_OUT_RAD);
-    let turn = heading * exp(DVec3::X * roll.foot);
-    let foot = &frame.foot;
-    // The heel rolls as a ball does; then the toes turn about their tip, and the foot about its ball.
-    let (pivot, moved) = if roll.foot < 0.0 {
-        (foot.heel, DVec3::Z * (foot.heel_radius_m * roll.foot))
-    } else {
-        (foot.ball, foot.toe_tip - exp(DVec3::X * roll.toes) * foot.toe_tip)
-    };
-    (turn, heading * (pivot + moved) - turn * pivot)
-}
-
-/// How much of the weight the left foot carries.
-fn weight(phase: f64) -> f64 {
-    let phase = phase - (phase - LANDS).floor();
-    smooth_step(LANDS, LEAVES - 0.5, phase) - smooth_step(LANDS + 0.5, LEAVES, phase)
 }
 
 fn jet<V>(value: impl Fn(f64) -> V, at: f64) -> Jet<V>
@@ -183,9 +68,9 @@ where
 }
 
 /// The hips' path that the standing feet dictate: stride \[m\] and the series beside the even progress.
-fn path(frame: &Frame, gain: f64) -> (f64, [Series; 3]) {
+fn path(skeleton: &WalkSkeleton, gain: f64) -> (f64, [Series; 3]) {
     // From the hips to the foot's place on the floor.
-    let held = |phase: f64| standing(frame, roll(frame, phase, gain)).1 - measured_leg(frame, phase, gain).ankle;
+    let held = |phase: f64| standing(skeleton, roll(skeleton, phase, gain)).1 - measured_leg(skeleton, phase, gain).ankle;
     let at = |index: usize| index as f64 / SAMPLES as f64;
     // One foot's share of the hips' speed, and of their height.
     let shares: Vec<(DVec3, f64)> = (0..SAMPLES)
@@ -196,7 +81,7 @@ fn path(frame: &Frame, gain: f64) -> (f64, [Series; 3]) {
                 return (DVec3::ZERO, 0.0);
             }
             let [place, speed, _] = jet(held, phase);
-            (speed * weight, (place.y + frame.foot.ankle_m) * weight)
+            (speed * weight, (place.y + skeleton.foot.ankle_m) * weight)
         })
         .collect();
     let both = |value: &dyn Fn(&(DVec3, f64)) -> f64, mirror: f64| -> Vec<f64> {
@@ -204,7 +89,7 @@ fn path(frame: &Frame, gain: f64) -> (f64, [Series; 3]) {
     };
     let integral = |speeds: Series| {
         let mut path = [0.0; 11];
-        for k in 1..=super::series::ORDER {
+        for k in 1..=ORDER {
             let rate = std::f64::consts::TAU * k as f64;
             (path[2 * k - 1], path[2 * k]) = (-speeds[2 * k] / rate, speeds[2 * k - 1] / rate);
         }
@@ -218,23 +103,23 @@ fn path(frame: &Frame, gain: f64) -> (f64, [Series; 3]) {
 
 impl Gait {
     /// The gain at which the mean walk makes a stride of this length; `None` when none in reach does.
-    pub fn gain_for(frame: &Frame, stride_m: f64) -> Option<f64> {
+    pub fn gain_for(skeleton: &WalkSkeleton, stride_m: f64) -> Option<f64> {
         let (mut low, mut high) = (0.3, 1.7);
-        if !(path(frame, low).0..=path(frame, high).0).contains(&stride_m) {
+        if !(path(skeleton, low).0..=path(skeleton, high).0).contains(&stride_m) {
             return None;
         }
         // Strides grow with the gain. 40 halvings end below 1e-11.
         for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if path(frame, middle).0 < stride_m { low = middle } else { high = middle }
+            if path(skeleton, middle).0 < stride_m { low = middle } else { high = middle }
         }
         Some(0.5 * (low + high))
     }
 
-    pub fn new(frame: Frame, gain: f64) -> Gait {
-        let (stride_m, path) = path(&frame, gain);
+    pub fn new(skeleton: WalkSkeleton, gain: f64) -> Gait {
+        let (stride_m, path) = path(&skeleton, gain);
         let mut gait = Gait {
-            frame,
+            skeleton,
             gain,
             stride_m,
             path,
@@ -267,21 +152,21 @@ impl Gait {
     }
 
     fn measured_ankle(&self, phase: f64) -> DVec3 {
-        self.hips(phase) + measured_leg(&self.frame, phase, self.gain).ankle
+        self.hips(phase) + measured_leg(&self.skeleton, phase, self.gain).ankle
     }
 
     fn standing_ankle(&self, phase: f64) -> DVec3 {
-        self.plant + standing(&self.frame, roll(&self.frame, phase, self.gain)).1
+        self.plant + standing(&self.skeleton, roll(&self.skeleton, phase, self.gain)).1
     }
 
     /// From the measured foot's turn to the standing one's \[rad\].
     fn standing_error(&self, phase: f64) -> DVec3 {
-        let turn = standing(&self.frame, roll(&self.frame, phase, self.gain)).0;
-        log(turn * measured_leg(&self.frame, phase, self.gain).foot.conjugate())
+        let turn = standing(&self.skeleton, roll(&self.skeleton, phase, self.gain)).0;
+        log(turn * measured_leg(&self.skeleton, phase, self.gain).foot.conjugate())
     }
 
     fn standing_toes(&self, phase: f64) -> f64 {
-        roll(&self.frame, phase, self.gain).bend()
+        roll(&self.skeleton, phase, self.gain).bend()
     }
 
     /// Where the left foot stands: where the measured leg holds it in the mean over its stance.
@@ -294,7 +179,7 @@ impl Gait {
             weights += weight;
         }
         let mean = sum / weights;
-        DVec3::new(mean.x, self.frame.foot.ankle_m, mean.z)
+        DVec3::new(mean.x, self.skeleton.foot.ankle_m, mean.z)
     }
 
     /// Joins the swing to the stance at both of its ends.
@@ -310,13 +195,13 @@ impl Gait {
 
     /// How far the hips must come down for the left leg to reach its ankle with a bent knee \[m\].
     fn overreach(&self) -> f64 {
-        let length = |node: Node| self.frame.body.link(node).offset.length();
+        let length = |node: Node| self.skeleton.body.link(node).offset.length();
         let (thigh, shank) = (length(Node::LeftLowerLeg), length(Node::LeftFoot));
         let longest_squared = thigh * thigh + shank * shank + 2.0 * thigh * shank * libm::cos(MIN_FLEXION_RAD);
         (0..2 * SAMPLES)
             .map(|index| {
                 let phase = LANDS + index as f64 / (2 * SAMPLES) as f64;
-                let hip = self.hips(phase) + measured_leg(&self.frame, phase, self.gain).hip;
+                let hip = self.hips(phase) + measured_leg(&self.skeleton, phase, self.gain).hip;
                 let away = hip - self.left_leg(phase).ankle;
                 let level = away.x * away.x + away.z * away.z;
                 away.y - (longest_squared - level).max(0.0).sqrt()
@@ -328,10 +213,10 @@ impl Gait {
     pub fn left_leg(&self, phase: f64) -> ShownLeg {
         let stride = (phase - LANDS).floor();
         let local = phase - stride;
-        let leg = measured_leg(&self.frame, local, self.gain);
+        let leg = measured_leg(&self.skeleton, local, self.gain);
         let hips = self.hips(local);
         let (ankle, foot, bend) = if local <= LEAVES {
-            let (foot, moved) = standing(&self.frame, roll(&self.frame, local, self.gain));
+            let (foot, moved) = standing(&self.skeleton, roll(&self.skeleton, local, self.gain));
             (self.plant + moved, foot, self.standing_toes(local))
         } else {
             let span = 1.0 + LANDS - LEAVES;
@@ -378,7 +263,7 @@ impl Gait {
     /// Height of the left foot's lowest point above the floor \[m\].
     pub fn left_clearance(&self, phase: f64) -> f64 {
         let leg = self.left_leg(phase);
-        let foot = &self.frame.foot;
+        let foot = &self.skeleton.foot;
         let ball = leg.ankle + leg.foot * foot.ball;
         let tip = ball + leg.foot * (leg.toes * foot.toe_tip);
         let heel = leg.ankle + leg.foot * foot.heel;
@@ -391,7 +276,7 @@ impl Gait {
         (1..SAMPLES)
             .map(|index| {
                 let t = index as f64 / SAMPLES as f64;
-                let needed = CLEARANCE_M * self.frame.scale * lift(t) - self.left_clearance(LEAVES + span * t);
+                let needed = CLEARANCE_M * self.skeleton.scale * lift(t) - self.left_clearance(LEAVES + span * t);
                 // Close to the floor's own moments no lift helps; the foot is above it there by its speed.
                 if lift(t) > 0.2 { needed / lift(t) } else { 0.0 }
             })

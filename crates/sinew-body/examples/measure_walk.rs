@@ -1,5 +1,5 @@
 //! Measures the mean walk of the normal walks in the shared motion-capture set and prints the table that
-//! `src/sample/walk_table.rs` holds: `cargo run -p sinew --example measure_walk > rows.txt`. How well it went is told on
+//! `src/walk/walk_table.rs` holds: `cargo run -p sinew-body --example measure_walk > rows.txt`. How well it went is told on
 //! standard error.
 //!
 //! From each clip one gait cycle, the one whose ends agree best. Its poses become those of the 18-body humanoid, its

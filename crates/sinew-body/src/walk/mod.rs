@@ -1,11 +1,23 @@
-//! A walk by speed, cadence and stature.
+//! A walk made from measured means, by speed, cadence and stature: something to start with when no motion is at hand.
+//!
+//! Its joint angles are Fourier series measured as means over the normal walks of seven people (`examples/measure_walk.rs`
+//! measures, `walk_table.rs` holds the numbers). The hips' path follows from the standing foot, both feet are held on the
+//! floor where they stand, and speed, cadence and stature are parameters: see [`Walk`]. The repository ships it as
+//! `samples/walk.bvh` and `samples/walk.glb`, which `examples/make_samples.rs` writes.
 
-use super::frame::Frame;
-use super::gait::{Gait, ShownLeg, mirrored};
+mod gait;
+mod measured;
+mod series;
+mod skeleton;
+mod stance;
+mod walk_table;
+
+use crate::humanoid::{Node, Shape};
+use gait::{Gait, ShownLeg};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::Node;
+use measured::mirrored;
 use sinew_motion::Clip;
-use sinew_motion::formats::BodyShape;
+use skeleton::WalkSkeleton;
 
 /// Most frames that are made: an hour at 60 per second.
 const MAX_FRAMES: f64 = 216_000.0;
@@ -16,10 +28,10 @@ const MAX_FRAMES: f64 = 216_000.0;
 /// in proportion, knees and ankles half as much; all else stays as measured.
 ///
 /// ```
-/// use sinew::sample::Walk;
+/// use sinew_body::walk::Walk;
 /// let clip = Walk { cycles: 2, ..Walk::default() }.clip()?;
 /// assert_eq!(clip.frames(), 2 * 66 + 1);
-/// # Ok::<(), sinew::sample::WalkError>(())
+/// # Ok::<(), sinew_body::walk::WalkError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walk {
@@ -52,9 +64,9 @@ pub enum WalkError {
         name: &'static str,
         /// What was asked for.
         value: f64,
-        /// The least that can be had.
+        /// The minimum.
         from: f64,
-        /// The most that can be had.
+        /// The maximum.
         to: f64,
     },
     /// Nobody of this stature walks with such strides.
@@ -97,9 +109,9 @@ impl Walk {
         if !(MIN_STRIDE..=LONGEST_STRIDE).contains(&(stride_m / self.stature_m)) {
             return Err(refused);
         }
-        let frame = Frame::new(self.stature_m);
-        let gain = Gait::gain_for(&frame, stride_m).ok_or(refused)?;
-        Ok(Gait::new(frame, gain))
+        let skeleton = WalkSkeleton::new(self.stature_m);
+        let gain = Gait::gain_for(&skeleton, stride_m).ok_or(refused)?;
+        Ok(Gait::new(skeleton, gain))
     }
 
     /// The walk from the moment when the left foot is farthest ahead: `cycles` × [`Walk::frames_per_stride`] + 1 frames, the
@@ -111,20 +123,20 @@ impl Walk {
     pub fn clip(&self) -> Result<Clip, WalkError> {
         let gait = self.gait()?;
         let per_stride = self.frames_per_stride();
-        let mut clip = Clip::new(gait.frame.skeleton(), 1.0 / self.fps, vec![0]);
+        let mut clip = Clip::new(gait.skeleton.skeleton(), 1.0 / self.fps, vec![0]);
         let stride: Vec<(DVec3, [DQuat; Node::COUNT], [DQuat; 2])> =
             (0..per_stride).map(|frame| pose(&gait, frame as f64 / per_stride as f64)).collect();
         for frame in 0..=self.cycles * per_stride {
             let (hips, nodes, toes) = &stride[frame % per_stride];
             let done = DVec3::Z * (gait.stride_m * (frame / per_stride) as f64);
-            clip.push(&gait.frame.locals(*hips + done, nodes, *toes));
+            clip.push(&gait.skeleton.locals(*hips + done, nodes, *toes));
         }
         Ok(clip)
     }
 
-    /// A body of capsules for the clip's joints, to look at.
-    pub fn body_shapes(&self) -> Vec<BodyShape> {
-        Frame::new(self.stature_m).shapes()
+    /// A body of capsules to look at, each with the clip's joint in whose frame it is.
+    pub fn shapes(&self) -> Vec<(usize, Shape)> {
+        WalkSkeleton::new(self.stature_m).shapes()
     }
 }
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// Leaves in `points` the corners of their hull over the ground, counter-clockwise seen from above, starting with the
 /// smallest x. Heights stay those of the corners.
-pub fn keep_hull(points: &mut Vec<DVec3>, scratch: &mut Vec<DVec3>) {
+pub fn keep_support_hull(points: &mut Vec<DVec3>, scratch: &mut Vec<DVec3>) {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.z.total_cmp(&b.z)));
     points.dedup_by(|a, b| a.x == b.x && a.z == b.z);
     if points.len() < 3 {
@@ -32,8 +32,8 @@ pub fn keep_hull(points: &mut Vec<DVec3>, scratch: &mut Vec<DVec3>) {
 }
 
 /// Distance over the ground from a point to the polygon's edge \[m\]: positive inside, negative outside; −∞ without a
-/// polygon. `corners` as in [`CharacterFrame::support`](crate::CharacterFrame::support).
-pub fn margin(corners: &[DVec3], point: DVec3) -> f64 {
+/// polygon. `corners` as [`keep_support_hull`] leaves them.
+pub fn support_margin_m(corners: &[DVec3], point: DVec3) -> f64 {
     let flat = |v: DVec3| DVec3::new(v.x, 0.0, v.z);
     let point = flat(point);
     if corners.len() < 3 {
@@ -76,7 +76,7 @@ mod tests {
                 .into_iter()
                 .map(|(x, z)| DVec3::new(x, 0.0, z))
                 .collect();
-        keep_hull(&mut points, &mut Vec::new());
+        keep_support_hull(&mut points, &mut Vec::new());
         points
     }
 
@@ -88,9 +88,9 @@ mod tests {
     #[test]
     fn the_margin_is_the_distance_to_the_nearest_edge_and_negative_outside() {
         let corners = square();
-        assert!((margin(&corners, DVec3::new(0.3, 9.0, 0.5)) - 0.3).abs() < 1e-12);
-        assert!((margin(&corners, DVec3::new(0.5, 0.0, 0.1)) - 0.1).abs() < 1e-12);
-        assert!((margin(&corners, DVec3::new(1.3, 0.0, 1.4)) + 0.5).abs() < 1e-12);
-        assert_eq!(margin(&[], DVec3::ZERO), f64::NEG_INFINITY);
+        assert!((support_margin_m(&corners, DVec3::new(0.3, 9.0, 0.5)) - 0.3).abs() < 1e-12);
+        assert!((support_margin_m(&corners, DVec3::new(0.5, 0.0, 0.1)) - 0.1).abs() < 1e-12);
+        assert!((support_margin_m(&corners, DVec3::new(1.3, 0.0, 1.4)) + 0.5).abs() < 1e-12);
+        assert_eq!(support_margin_m(&[], DVec3::ZERO), f64::NEG_INFINITY);
     }
 }

@@ -1,8 +1,7 @@
 //! The skeleton of the sample, and its body to look at.
 
+use crate::humanoid::{Body, Node, Shape};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Node};
-use sinew_motion::formats::BodyShape;
 use sinew_motion::{Joint, Part, Skeleton, Transform};
 
 /// The method's tree, from the soles to the top of the head, at the stature that it is made for \[m of 1.70 m\].
@@ -30,7 +29,7 @@ pub(super) struct Foot {
 
 /// The sample's skeleton.
 #[derive(Clone, Debug)]
-pub(super) struct Frame {
+pub(super) struct WalkSkeleton {
     /// The body whose bones it has.
     pub body: Body,
     /// Its left foot; the right one is the same, for all its points lie in the middle plane.
@@ -79,8 +78,8 @@ fn joint_from_node(part: Part) -> DQuat {
     }
 }
 
-impl Frame {
-    pub fn new(stature_m: f64) -> Frame {
+impl WalkSkeleton {
+    pub fn new(stature_m: f64) -> WalkSkeleton {
         let height_m = stature_m * 1.70 / TREE_HEIGHT_M;
         let scale = height_m / 1.70;
         let foot = Foot {
@@ -91,7 +90,7 @@ impl Frame {
             toe_tip: DVec3::new(0.0, -0.022, 0.064) * scale,
         };
         // Mass sets nothing but breadth here: that of a person of 23.5 kg per square metre.
-        Frame { body: Body::standard(23.5 * stature_m * stature_m, height_m), foot, scale }
+        WalkSkeleton { body: Body::standard(23.5 * stature_m * stature_m, height_m), foot, scale }
     }
 
     /// The skeleton in its rest pose: a T, facing +Z, hips at the origin.
@@ -155,13 +154,13 @@ impl Frame {
             .collect()
     }
 
-    /// Capsules to look at, one or two to a part.
-    pub fn shapes(&self) -> Vec<BodyShape> {
+    /// Capsules to look at, one or two to a part, each with the joint in whose frame it is.
+    pub fn shapes(&self) -> Vec<(usize, Shape)> {
         let mut shapes = Vec::new();
         for (joint, &part) in PARTS.iter().enumerate() {
             let link = self.body.link(Node::of(part));
             let mut push = |from: DVec3, to: DVec3, radius_m: f64| {
-                shapes.push(BodyShape { joint, from, to, radius_m });
+                shapes.push((joint, Shape { from, to, from_radius_m: radius_m, to_radius_m: radius_m }));
             };
             let metres = |x: f64, y: f64, z: f64| DVec3::new(x, y, z) * self.scale;
             match part {

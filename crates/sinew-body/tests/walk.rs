@@ -1,7 +1,7 @@
 //! The generated walk stands on its feet, whatever is asked of it.
 
 use glam::DVec3;
-use sinew::sample::{Walk, WalkError};
+use sinew_body::walk::{Walk, WalkError};
 use sinew_body::humanoid::log;
 use sinew_motion::{Clip, Humanoid, Part, Side, Transform, find_cycle};
 
