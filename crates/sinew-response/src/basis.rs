@@ -42,7 +42,7 @@ impl Basis {
         if !motion.iter().all(Pose::is_finite) {
             return Err(BasisError::NotFinite);
         }
-        let torques = torques(body, motion, settings.time_step_secs);
+        let torques = torques(body, motion, settings);
         let mut moment = SMatrix::<f64, UPPER_DOFS, UPPER_DOFS>::zeros();
         for torque in &torques {
             let torque = nalgebra::SVector::from(*torque);
@@ -97,7 +97,8 @@ impl Basis {
 }
 
 fn mean_inertia(body: &Body, motion: &[Pose]) -> Coordinates24 {
-    let mut upper = UpperBody::of(body);
+    // Gravity has no part in it.
+    let mut upper = UpperBody::of(body, 0.0);
     let mut sum = [0.0; UPPER_DOFS];
     for pose in motion {
         for (sum, inertia) in sum.iter_mut().zip(upper.inertia(pose)) {

@@ -9,15 +9,13 @@
 //!
 //! ```
 //! use sinew_body::humanoid::{Body, Node, Pose};
-//! use sinew_response::{Basis, PointForce, Response, Settings};
+//! use sinew_response::{PointForce, Prepared, Settings};
 //! use glam::DVec3;
 //!
 //! // A body that stands still; an engine hands over the pose of its animation each frame.
-//! let body = Body::standard(80.0, 1.7);
 //! let standing = vec![Pose::STANDING; 60];
-//! let settings = Settings::default();
-//! let basis = Basis::of_motion(&body, &standing, &settings)?;
-//! let mut response = Response::new(body, basis, settings, &Pose::STANDING);
+//! let prepared = Prepared::of_poses(Body::standard(80.0, 1.7), standing, Settings::default())?;
+//! let mut response = prepared.response(&Pose::STANDING);
 //!
 //! let push = PointForce::at_centre(Node::LeftHand, DVec3::new(0.0, 0.0, -100.0));
 //! for frame in 0..10 {
@@ -26,7 +24,7 @@
 //!     assert!(pose.is_finite());
 //! }
 //! assert!(response.deviation().turns[Node::LeftUpperArm.index()].length() > 0.05);
-//! # Ok::<(), sinew_response::BasisError>(())
+//! # Ok::<(), sinew_response::PrepareError>(())
 //! ```
 //!
 //! It has no feature, and brings along fewer than 30 crates.
@@ -45,6 +43,8 @@ mod objective;
 mod objective_tests;
 #[cfg(test)]
 mod oracle;
+mod prepared;
+mod prepared_clip;
 mod push;
 mod response;
 mod settings;
@@ -59,10 +59,12 @@ pub use basis::{Basis, BasisError};
 pub use force::PointForce;
 pub use live::Live;
 pub use motion::Motion;
+pub use prepared::{PrepareError, Prepared};
+pub use prepared_clip::{Excerpt, PreparedClip};
 pub use push::{GroundJerk, Push, PushFrame};
 pub use response::{Report, Response};
-pub use settings::{Coordinates, Preset, Settings};
-pub use stability::{growth, stable_compliance};
+pub use stability::stable_compliance;
+pub use settings::{Coordinates, Preset, Settings, SettingsError};
 pub use task::Task;
 pub use torque::torques;
 pub use track::{Disturbances, Track};

@@ -24,19 +24,18 @@ use sinew_snapshot::snapshot;
 /// ```
 /// use glam::DVec3;
 /// use sinew_body::humanoid::{Body, Node, Pose};
-/// use sinew_response::{Basis, Live, PointForce, Settings};
+/// use sinew_response::{PointForce, Prepared, Settings};
 ///
-/// let settings = Settings::default();
-/// let body = Body::standard(80.0, 1.7);
 /// // A stream has no clip to measure: the basis comes from a take of the performer, or from any clip of the kind.
-/// let basis = Basis::of_motion(&body, &vec![Pose::STANDING; 60], &settings)?;
-/// let mut live = Live::new(body, basis, settings, &Pose::STANDING);
+/// let take = vec![Pose::STANDING; 60];
+/// let prepared = Prepared::of_poses(Body::standard(80.0, 1.7), take, Settings::default())?;
+/// let mut live = prepared.live(&Pose::STANDING);
 /// for _frame in 0..10 {
 ///     let wanted = Pose::STANDING; // from the capture system
 ///     let shown = live.advance(&wanted, &[PointForce::at_centre(Node::Head, DVec3::X * 50.0)]);
 ///     assert!(shown.is_finite());
 /// }
-/// # Ok::<(), sinew_response::BasisError>(())
+/// # Ok::<(), sinew_response::PrepareError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Live {

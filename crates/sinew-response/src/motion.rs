@@ -4,6 +4,7 @@ use crate::settings::{CUTOFF_HZ, Settings};
 use glam::DQuat;
 use sinew_body::humanoid::{Body, Node, Pose, Reduction};
 use sinew_motion::{Clip, LowPass};
+use std::ops::Range;
 
 /// Poses of the 18 bodies at the response's own rate, low-pass filtered, from which torques are computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,11 +59,16 @@ impl Motion {
         self.time_step_secs
     }
 
-    /// The poses between two times \[s\], both ends in, from the clip's first frame.
-    pub fn between_secs(&self, from_secs: f64, to_secs: f64) -> &[Pose] {
+    /// Which poses lie between two times \[s\], both ends in, from the clip's first frame.
+    pub fn range_secs(&self, from_secs: f64, to_secs: f64) -> Range<usize> {
         let index = |secs: f64| ((secs - self.start_secs) / self.time_step_secs).round().max(0.0) as usize;
-        let end = (index(to_secs) + 1).min(self.poses.len());
-        &self.poses[index(from_secs).min(end)..end]
+        let end = index(to_secs).saturating_add(1).min(self.poses.len());
+        index(from_secs).min(end)..end
+    }
+
+    /// The poses of [`Motion::range_secs`].
+    pub fn between_secs(&self, from_secs: f64, to_secs: f64) -> &[Pose] {
+        &self.poses[self.range_secs(from_secs, to_secs)]
     }
 
     /// The body with its joint limits widened to contain all poses of this motion.

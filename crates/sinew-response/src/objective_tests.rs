@@ -4,6 +4,7 @@ use crate::objective::{Frame, Matrix, Objective, Row, Vector, Weighing};
 use crate::upper_body::{JointMotion, UpperBody, locals};
 use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
+use sinew_body::STANDARD_GRAVITY_M_S2;
 use sinew_body::humanoid::{Body, Node, Pose, UPPER_DOFS as N, exp};
 
 /// The data that a frame borrows.
@@ -33,7 +34,7 @@ impl Case {
     fn new(seed: u64, k: usize, dynamics: f64, reflex: f64, holds: bool) -> Case {
         let seed = &mut seed.wrapping_add(77);
         let body = Body::standard(80.0, 1.7);
-        let mut upper = UpperBody::of(&body);
+        let mut upper = UpperBody::of(&body, STANDARD_GRAVITY_M_S2);
         let turns: Vec<DVec3> = (0..18).map(|_| DVec3::new(random(seed), random(seed), random(seed))).collect();
         let pose = Pose::from_locals(DVec3::ZERO, &Node::ALL.map(|node| exp(turns[node.index()])));
         let still = [DVec3::ZERO; 12];

@@ -6,9 +6,9 @@
 //! the parent, in the child's frame, of which the 24 coordinates are components; the rest is prescribed by the input.
 
 use crate::force::PointForce;
-use crate::settings::GRAVITY;
 use crate::upper_body::{Coordinates24, DOFS, Matrix24};
 use glam::{DMat3, DQuat, DVec3};
+use sinew_body::STANDARD_GRAVITY_M_S2;
 use sinew_body::humanoid::{Axis, Body, Dof, Node, UPPER_DOFS, UPPER_NODES};
 
 /// Parents of the upper nodes.
@@ -85,7 +85,7 @@ impl Oracle {
     ) -> Coordinates24 {
         let mut angular_velocity = [hips.angular_velocity; UPPER_NODES];
         let mut angular_acceleration = [hips.angular_acceleration; UPPER_NODES];
-        let mut acceleration = [hips.acceleration - GRAVITY; UPPER_NODES];
+        let mut acceleration = [hips.acceleration + DVec3::Y * STANDARD_GRAVITY_M_S2; UPPER_NODES];
         let mut force = [DVec3::ZERO; UPPER_NODES];
         // Moments about the hips' origin.
         let mut moment = [DVec3::ZERO; UPPER_NODES];

@@ -157,7 +157,7 @@ impl Response {
         let mass_kg = body.mass_kg();
         let weights = Weights::of(&settings, mass_kg);
         let spring = weights.passive_frequency;
-        let upper = UpperBody::of(&body);
+        let upper = UpperBody::of(&body, settings.gravity_m_s2);
         let weighing = Weighing {
             time_step_secs: settings.time_step_secs,
             track: weights.track,

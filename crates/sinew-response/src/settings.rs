@@ -1,5 +1,6 @@
 //! Settings of the response, and the method's constants.
 
+use sinew_body::STANDARD_GRAVITY_M_S2;
 use sinew_body::humanoid::{Node, UPPER_DOFS, upper_dofs};
 
 /// A named reading of the paper.
@@ -28,26 +29,37 @@ pub enum Coordinates {
     High,
 }
 
-/// The settings of a response.
+/// The settings of a response. They take effect when a [`Response`](crate::Response) is made of them, and stay.
+///
+/// ```
+/// use sinew_response::{Settings, SettingsError};
+/// let loose = Settings { compliance: 2.0, ..Settings::default() };
+/// assert_eq!(loose.check(), Ok(()));
+/// assert_eq!(Settings { k: 25, ..loose }.check(), Err(SettingsError::K(25)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The preset.
+    /// The preset. Default [`Preset::Robust`].
     pub preset: Preset,
-    /// Number of coordinates under dynamics, k: 0 to 24. The paper uses 10, and 5 for slow forms.
+    /// Number of coordinates under dynamics, k: 0 to 24. Default 10, as in the paper, which uses 5 for slow forms.
     pub k: usize,
-    /// Which coordinates.
+    /// Which coordinates. Default [`Coordinates::Low`], the only choice of the robust preset.
     pub coordinates: Coordinates,
-    /// Compliance of the body, from [`Settings::MIN_COMPLIANCE`] (stiff) over 1 to [`Settings::MAX_COMPLIANCE`]
-    /// (loose); only the robust preset uses it. It moves tracking (w1), damping (w2) and the passive spring (ω)
+    /// Compliance of the body \[1\], from [`Settings::MIN_COMPLIANCE`] (stiff) to [`Settings::MAX_COMPLIANCE`] (loose),
+    /// default 1; only the robust preset uses it. It moves tracking (w1), damping (w2) and the passive spring (ω)
     /// together, with exponents chosen on walks, runs, a sneak, punches, a dance and a martial-arts form so that the
     /// body also comes back. Towards loose, damping falls faster than tracking, since it is damping against the input
     /// that makes a recovery slow; towards stiff they keep their ratio, and the dynamic constraint's penalty falls,
     /// since it is the term that makes a fast motion diverge. From 0.25 to 4 a push deflects a walk's joints from half
-    /// to one and a half times as far as at 1. [`stable_compliance`](crate::stable_compliance) computes the maximum for
-    /// a motion.
+    /// to one and a half times as far as at 1. [`Prepared::stable_settings`](crate::Prepared::stable_settings) computes
+    /// the maximum for a motion.
     pub compliance: f64,
-    /// Time from one frame to the next \[s\].
+    /// Time from one frame to the next \[s\]: [`Settings::MIN_TIME_STEP_SECS`] to [`Settings::MAX_TIME_STEP_SECS`], default 1/60.
+    /// A motion and its basis are made for one time step.
     pub time_step_secs: f64,
+    /// Downward gravity of the world in which the motion takes place \[m/s²\]: any finite number, default 9.81. The torques
+    /// that a motion uses depend on it, so a basis is made for one gravity.
+    pub gravity_m_s2: f64,
 }
 
 impl Default for Settings {
@@ -58,8 +70,41 @@ impl Default for Settings {
             coordinates: Coordinates::Low,
             compliance: 1.0,
             time_step_secs: 1.0 / 60.0,
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
         }
     }
+}
+
+/// Why settings cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// More coordinates than there are.
+    #[error("k = {0} is out of range: the upper body has 24 coordinates, so k is 0 to 24")]
+    K(usize),
+    /// The dial is out of range.
+    #[error(
+        "a compliance of {0} is out of range: {min} (stiff) to {max} (loose), 1 is the default",
+        min = Settings::MIN_COMPLIANCE,
+        max = Settings::MAX_COMPLIANCE
+    )]
+    Compliance(f64),
+    /// A compliance other than 1 with a preset that has no such dial.
+    #[error("compliance is the robust preset's dial; the paper's presets yield by k")]
+    ComplianceOfPaper,
+    /// The counter-experiment with the robust preset.
+    #[error("the coordinates `high` are the paper's counter-experiment; use them with the preset `paper`")]
+    HighOfRobust,
+    /// The time step is out of range.
+    #[error(
+        "a time step of {0} s is out of range: {min} to {max}",
+        min = Settings::MIN_TIME_STEP_SECS,
+        max = Settings::MAX_TIME_STEP_SECS
+    )]
+    TimeStep(f64),
+    /// Gravity is NaN or infinite.
+    #[error("a gravity of {0} m/s² is invalid; 9.81 is the default")]
+    Gravity(f64),
 }
 
 impl Settings {
@@ -67,10 +112,37 @@ impl Settings {
     pub const MIN_COMPLIANCE: f64 = 0.25;
     /// Maximum compliance: the loosest setting.
     pub const MAX_COMPLIANCE: f64 = 4.0;
-}
+    /// Shortest time step \[s\].
+    pub const MIN_TIME_STEP_SECS: f64 = 1e-3;
+    /// Longest time step \[s\].
+    pub const MAX_TIME_STEP_SECS: f64 = 0.1;
 
-/// Acceleration of gravity \[m/s²\], world axes.
-pub(crate) const GRAVITY: glam::DVec3 = glam::DVec3::new(0.0, -9.81, 0.0);
+    /// Checks every range, and what excludes each other.
+    ///
+    /// # Errors
+    /// The first setting that is out of range, or the pair that does not go together.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        if self.k > UPPER_DOFS {
+            return Err(SettingsError::K(self.k));
+        }
+        if !(Settings::MIN_COMPLIANCE..=Settings::MAX_COMPLIANCE).contains(&self.compliance) {
+            return Err(SettingsError::Compliance(self.compliance));
+        }
+        if self.preset != Preset::Robust && self.compliance != 1.0 {
+            return Err(SettingsError::ComplianceOfPaper);
+        }
+        if self.coordinates == Coordinates::High && self.preset == Preset::Robust {
+            return Err(SettingsError::HighOfRobust);
+        }
+        if !(Settings::MIN_TIME_STEP_SECS..=Settings::MAX_TIME_STEP_SECS).contains(&self.time_step_secs) {
+            return Err(SettingsError::TimeStep(self.time_step_secs));
+        }
+        if !self.gravity_m_s2.is_finite() {
+            return Err(SettingsError::Gravity(self.gravity_m_s2));
+        }
+        Ok(())
+    }
+}
 
 /// Cut-off of the low-pass filter for input motion before it is differentiated twice \[Hz\].
 pub(crate) const CUTOFF_HZ: f64 = 6.0;

@@ -16,14 +16,6 @@ const STATE: usize = 2 * UPPER_DOFS;
 /// Size of the trial deviations \[rad\]: far below where the response bends, far above rounding.
 const TRIAL: f64 = 1e-6;
 
-/// Growth factor of the largest small deviation over a stretch of motion that repeats: the spectral radius of the
-/// linearised steps' product. Joint limits are left out: they only stop a deviation.
-///
-/// 0 for a stretch of fewer than three poses.
-pub fn growth(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
-    growth_over(body, basis, settings, &[motion])
-}
-
 /// Maximum growth of small deviations in a second at which a compliance is accepted: from 20 degrees to 2 in five
 /// seconds.
 const GROWTH_PER_SECOND: f64 = 0.65;
@@ -81,6 +73,9 @@ pub fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings, motion
     least.0
 }
 
+/// By what factor the largest small deviation grows over stretches of motion, were they to repeat: the spectral radius of the
+/// linearised steps' product. Joint limits are left out: they only ever stop a deviation. Stretches of fewer than three poses
+/// have no growth to tell: 0.
 fn growth_over(body: &Body, basis: &Basis, settings: &Settings, stretches: &[&[Pose]]) -> f64 {
     let Some(first) = stretches.first().and_then(|stretch| stretch.first()) else { return 0.0 };
     let mut body = body.clone();

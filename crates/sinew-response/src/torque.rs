@@ -1,6 +1,7 @@
 //! The torques that a motion uses.
 
 use crate::input::Input;
+use crate::settings::Settings;
 use crate::upper_body::{Coordinates24, HipsMotion, JointMotion, UpperBody};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Pose, UPPER_DOFS, UPPER_NODES, log};
@@ -68,16 +69,17 @@ impl Differences<'_> {
 }
 
 /// Joint torques \[N m\] of the upper body's 24 coordinates in every frame but the first and the last, under gravity
-/// alone (EQ1): the matrix U of the paper, a column a frame. Poses follow each other at `time_step_secs`, and should be
-/// low-pass filtered (6 Hz): accelerations are second differences.
-pub fn torques(body: &Body, motion: &[Pose], time_step_secs: f64) -> Vec<[f64; UPPER_DOFS]> {
+/// alone (EQ1): the matrix U of the paper, a column a frame. Poses follow each other at the settings' time step, and
+/// should be low-pass filtered (6 Hz): accelerations are second differences. Of the settings only time step and gravity
+/// count.
+pub fn torques(body: &Body, motion: &[Pose], settings: &Settings) -> Vec<[f64; UPPER_DOFS]> {
     let [first, second, rest @ ..] = motion else { return Vec::new() };
-    let mut upper = UpperBody::of(body);
+    let mut upper = UpperBody::of(body, settings.gravity_m_s2);
     let mut now = Input::at(first, second);
     rest.iter()
         .map(|next| {
             let next = now.followed_by(next);
-            let torque = now.torque(&next, &mut upper, time_step_secs);
+            let torque = now.torque(&next, &mut upper, settings.time_step_secs);
             now = next;
             torque
         })

@@ -5,7 +5,6 @@
 //! child's frame, of which the 24 coordinates are components; the rest is prescribed by the input.
 
 use crate::force::PointForce;
-use crate::settings::GRAVITY;
 use glam::{DMat3, DQuat, DVec3};
 use sinew_body::dynamics::{
     Accelerations, Base, Freedom, Inverse, Link, State, Sym3, Tree, V3, Workspace, crba, inverse, rnea,
@@ -60,6 +59,8 @@ pub(crate) struct JointMotion<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct UpperBody {
     tree: Tree<f64>,
+    /// Acceleration of gravity \[m/s²\], world axes.
+    gravity: DVec3,
     centre: [DVec3; UPPER_NODES],
     state: State<f64>,
     workspace: Workspace<f64>,
@@ -67,7 +68,7 @@ pub(crate) struct UpperBody {
 }
 
 impl UpperBody {
-    pub(crate) fn of(body: &Body) -> UpperBody {
+    pub(crate) fn of(body: &Body, gravity_m_s2: f64) -> UpperBody {
         // Bodies with invalid measures get no mass, so that no body panics.
         let finite = |vector: DVec3| if vector.is_finite() { vector } else { DVec3::ZERO };
         let links = ABOVE.map(|node| {
@@ -94,6 +95,7 @@ impl UpperBody {
             motion.set_axes(&axes);
         }
         UpperBody {
+            gravity: finite(DVec3::new(0.0, -gravity_m_s2, 0.0)),
             centre: std::array::from_fn(|node| body.link(Node::ALL[node]).centre),
             workspace: Workspace::new(&tree),
             out: Inverse::new(&tree),
@@ -105,7 +107,7 @@ impl UpperBody {
     /// Joint torques \[N m\] of the 24 coordinates (EQ1), gravity included, without other forces.
     pub(crate) fn torques(&mut self, hips: &HipsMotion, joints: JointMotion) -> Coordinates24 {
         self.set(joints);
-        let base = base(hips);
+        let base = self.base(hips);
         let mut torques = [0.0; UPPER_DOFS];
         rnea(&self.tree, &base, &self.state, Accelerations::Relative, &[], &mut self.workspace, &mut torques);
         torques
@@ -114,7 +116,8 @@ impl UpperBody {
     /// As [`UpperBody::torques`], with the mass matrix; places the bodies for [`UpperBody::load`].
     pub(crate) fn inverse(&mut self, hips: &HipsMotion, joints: JointMotion) {
         self.set(joints);
-        inverse(&self.tree, &base(hips), &self.state, &[], &mut self.workspace, &mut self.out);
+        let base = self.base(hips);
+        inverse(&self.tree, &base, &self.state, &[], &mut self.workspace, &mut self.out);
     }
 
     /// The torques of the last [`UpperBody::inverse`] \[N m\].
@@ -133,7 +136,7 @@ impl UpperBody {
         for (motion, local) in self.state.motions.iter_mut().zip(&locals[1..]) {
             motion.rotation = (*local).into();
         }
-        let mut base = Base::at_rest(GRAVITY.into());
+        let mut base = Base::at_rest(self.gravity.into());
         base.rotation = pose.world[0].into();
         crba(&self.tree, &base, &self.state, &mut self.workspace, &mut self.out.mass);
         std::array::from_fn(|dof| self.out.mass.at(dof, dof))
@@ -171,6 +174,16 @@ impl UpperBody {
         &self.tree
     }
 
+    fn base(&self, hips: &HipsMotion) -> Base<f64> {
+        Base {
+            rotation: hips.rotation.into(),
+            angular_velocity: hips.angular_velocity.into(),
+            angular_acceleration: hips.angular_acceleration.into(),
+            acceleration: hips.acceleration.into(),
+            ..Base::at_rest(self.gravity.into())
+        }
+    }
+
     fn set(&mut self, joints: JointMotion) {
         for (index, motion) in self.state.motions.iter_mut().enumerate() {
             let node = index + 1;
@@ -178,16 +191,6 @@ impl UpperBody {
             motion.velocity = joints.rate[node].into();
             motion.acceleration = joints.change[node].into();
         }
-    }
-}
-
-fn base(hips: &HipsMotion) -> Base<f64> {
-    Base {
-        rotation: hips.rotation.into(),
-        angular_velocity: hips.angular_velocity.into(),
-        angular_acceleration: hips.angular_acceleration.into(),
-        acceleration: hips.acceleration.into(),
-        ..Base::at_rest(GRAVITY.into())
     }
 }
 
@@ -215,6 +218,7 @@ mod tests {
     use super::*;
     use crate::oracle::{Oracle, OracleHips};
     use proptest::prelude::*;
+    use sinew_body::STANDARD_GRAVITY_M_S2;
     use sinew_body::humanoid::exp;
 
     fn vectors(scale: f64) -> impl Strategy<Value = Vec<DVec3>> {
@@ -255,7 +259,7 @@ mod tests {
             let mut their_mass = [[0.0; UPPER_DOFS]; UPPER_DOFS];
             oracle.mass_matrix(&placement, &mut their_mass);
 
-            let mut upper = UpperBody::of(&body);
+            let mut upper = UpperBody::of(&body, STANDARD_GRAVITY_M_S2);
             let local = super::locals(&pose);
             let joints = JointMotion { local: &local, rate: &rate, change: &change };
             prop_assert!(agree(&upper.torques(&hips, joints), &their_torques));
@@ -270,7 +274,7 @@ mod tests {
 
     #[test]
     fn the_trees_coordinates_are_the_humanoids() {
-        let upper = UpperBody::of(&Body::standard(80.0, 1.7));
+        let upper = UpperBody::of(&Body::standard(80.0, 1.7), STANDARD_GRAVITY_M_S2);
         let nodes: Vec<Node> = upper.tree().link_of_dof().iter().map(|&link| ABOVE[link]).collect();
         assert_eq!(nodes, DOFS.map(|dof| dof.node));
         for (motion, node) in upper.state.motions.iter().zip(ABOVE) {

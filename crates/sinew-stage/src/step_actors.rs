@@ -1,12 +1,13 @@
 //! From what actors want to what their bodies do.
 
 use crate::Stage;
-use crate::basis::basis_for;
+use crate::basis::prepared;
 use crate::event::{Cause, CharacterEffect, Effect};
 use crate::scene::CharacterSpec;
 use sinew_control::graph::Cause as GraphCause;
 use sinew_control::source::{SourceEvent, StreamChange};
 use sinew_control::tracker::{KdTracker, KinematicTracker, Limp, PdTracker, ResponseTracker, Tracker, TrackerKind};
+use sinew_response::Settings;
 use sinew_world::{CharacterId, PropId};
 
 impl Stage {
@@ -81,7 +82,10 @@ impl Stage {
             }
             TrackerKind::Response => {
                 let motion = actor.sources().own().motion();
-                let (basis, settings) = basis_for(spec, actor.body(), motion, frame_secs)?;
+                let gravity_m_s2 = self.world.settings().gravity_m_s2;
+                let settings = Settings { time_step_secs: frame_secs, gravity_m_s2, ..Settings::default() };
+                let prepared = prepared(spec, actor.body(), motion, settings)?;
+                let (basis, settings) = (prepared.basis().clone(), prepared.stable_settings());
                 let mut tracker = ResponseTracker::new(actor.body().clone(), basis, settings, &now);
                 tracker.stand_on(&self.world, spec.response.stands_on.as_ref().map(prop).transpose()?);
                 if let Some(part) = &spec.response.keep_upright {

@@ -59,7 +59,7 @@ fn whole_job(criterion: &mut Criterion) {
     group.bench_function("respond, one push", |b| b.iter(|| black_box(respond(&file, &pushed, None))));
     group.bench_function("respond, 100 pushes", |b| b.iter(|| black_box(respond(&file, &often, None))));
     group.bench_function("write BVH", |b| {
-        b.iter(|| file.write(&path, &answer.clip, &answer.rows, &[]).expect("written"));
+        b.iter(|| file.write(&path, &answer.clip, answer.rows(), &[]).expect("written"));
     });
     group.finish();
 }

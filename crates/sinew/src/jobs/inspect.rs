@@ -4,7 +4,7 @@ use serde::Serialize;
 use sinew_body::humanoid::{Node, Person, Reduction};
 use sinew_motion::formats::MotionFile;
 use sinew_motion::{Origin, find_cycle, find_defects, floor_height_m, moves_from};
-use sinew_response::{Basis, Motion, Settings};
+use sinew_response::{Excerpt, PreparedClip, Settings};
 use std::collections::BTreeMap;
 
 /// The answer of `sinew inspect`; units are in the names.
@@ -117,9 +117,8 @@ pub fn inspect(file: &MotionFile, person: Person) -> Inspection {
     let Some(humanoid) = humanoid else { return inspection };
     inspection.stature_m = Some(file.stature_m);
     inspection.first_frame = moves_from(clip, humanoid);
-    let cycle = find_cycle(clip, humanoid);
-    inspection.cycle = cycle.map(|cycle| (cycle.first, cycle.last));
-    inspection.cycle_s = cycle.map(|cycle| cycle.period_secs);
+    inspection.cycle = find_cycle(clip, humanoid).map(|cycle| (cycle.first, cycle.last));
+    inspection.cycle_s = inspection.cycle.map(|(first, last)| (last - first) as f64 * clip.frame_time_secs());
     inspection.floor_height_m = Some(floor_height_m(clip, humanoid));
     inspection.defects = find_defects(clip, humanoid)
         .into_iter()
@@ -134,14 +133,9 @@ pub fn inspect(file: &MotionFile, person: Person) -> Inspection {
         Ok(reduction) => {
             let mass = |node: &Node| (node.part().name().to_owned(), reduction.body().link(*node).mass_kg);
             inspection.mass_kg = Node::ALL.iter().map(mass).collect();
-            let settings = Settings::default();
-            let motion = Motion::of_clip(clip, &reduction, inspection.first_frame, &settings);
-            let secs = |frame: usize| frame as f64 * clip.frame_time_secs();
-            let poses = match inspection.cycle {
-                Some((first, last)) => motion.between_secs(secs(first), secs(last)),
-                None => motion.poses(),
-            };
-            if let Ok(basis) = Basis::of_motion(reduction.body(), poses, &settings) {
+            let excerpt = Excerpt { cycle: inspection.cycle, repeat: 0 };
+            if let Ok(prepared) = PreparedClip::new(clip, humanoid, reduction, excerpt, Settings::default()) {
+                let basis = prepared.motion().basis();
                 inspection.actuation_n_m = basis.eigenvalues().iter().map(|value| value.sqrt()).collect();
                 let largest = inspection.actuation_n_m[0];
                 inspection.quiet_coordinates =

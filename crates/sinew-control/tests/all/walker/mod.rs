@@ -5,8 +5,7 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, log};
 use sinew_control::tracker::ResponseTracker;
 use sinew_motion::formats::{MotionFile, ReadOptions};
-use sinew_motion::{find_cycle, repeat};
-use sinew_response::{Basis, Motion, Settings};
+use sinew_response::{Basis, Excerpt, PreparedClip, Settings};
 use sinew_world::{
     CharacterId, CharacterSpec, Form, PropSpec, Solid, Surface, World, WorldSettings, hips_over_soles_m,
 };
@@ -30,17 +29,11 @@ impl Walk {
         let humanoid = file.body_parts().expect("a body");
         let person = Person { mass_kg: 80.0, height_m: Some(1.7) };
         let reduction = Reduction::new(&file.clip, humanoid, file.stature_m, person).expect("proportions");
-        let cycle = find_cycle(&file.clip, humanoid).expect("a gait cycle");
-        let repeated = repeat(&file.clip, humanoid, (cycle.first, cycle.last), strides);
-        let settings = Settings::default();
-        let motion = Motion::of_clip(&repeated.clip, &reduction, 0, &settings);
-        let mut body = reduction.body().clone();
-        motion.widen(&mut body);
-        let stride_secs = (cycle.last - cycle.first) as f64 * file.clip.frame_time_secs();
-        let middle = (strides / 2) as f64 * stride_secs;
-        let one = motion.between_secs(middle, middle + stride_secs);
-        let basis = Basis::of_motion(&body, one, &settings).expect("a basis");
-        let mut poses = motion.poses().to_vec();
+        let excerpt = Excerpt { cycle: None, repeat: strides };
+        let clip = PreparedClip::new(&file.clip, humanoid, reduction, excerpt, Settings::default()).expect("a walk");
+        let prepared = clip.motion();
+        let (body, stride) = (prepared.body().clone(), prepared.measured().len() - 1);
+        let mut poses = prepared.motion().poses().to_vec();
         // The soles touch the floor where they come lowest; the walk goes along +Z from the origin.
         let lowest = poses.iter().map(|pose| sole_height(&body, pose)).fold(f64::INFINITY, f64::min);
         let last = poses.len() - 1;
@@ -55,7 +48,7 @@ impl Walk {
                 pose.hips_position.z -= frame as f64 * speed;
             }
         }
-        Walk { body, basis, settings, poses, stride: one.len() - 1 }
+        Walk { body, basis: prepared.basis().clone(), settings: *prepared.settings(), poses, stride }
     }
 
     pub fn pose(&self, frame: usize) -> &Pose {

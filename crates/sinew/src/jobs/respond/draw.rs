@@ -35,25 +35,26 @@ pub fn sheet(answer: &Answer, humanoid: &Humanoid, job: &RespondJob, title: &str
         let ends = spans.iter().map(|(at, lasts)| at + lasts).fold(0.0, f64::max);
         ((begins - BEFORE_SECS).max(0.0), (ends + recovered).min(duration))
     } else {
-        (answer.first_frame as f64 * answer.clip.frame_time_secs(), duration.min(2.5))
+        (answer.prepared.first_frame() as f64 * answer.clip.frame_time_secs(), duration.min(2.5))
     };
-    let shapes = answer.reduction.shapes();
+    let shapes = answer.prepared.reduction().shapes();
     let strip = Filmstrip {
         title: String::new(),
         subtitle: String::new(),
         panels: panels(answer, pushes, &shapes, from, to),
         camera: camera(answer, humanoid, from),
-        style: Style { floor_m: floor_height_m(&answer.input, humanoid), ..Style::default() },
+        style: Style { floor_m: floor_height_m(answer.prepared.clip(), humanoid), ..Style::default() },
     };
+    let settings = answer.prepared.motion().stable_settings();
     let mut sheet = Sheet {
         title: title.to_owned(),
         subtitle: subtitle(answer, job),
         pieces: vec![strip.into()],
         footer: format!(
             "preset {}, k = {}, compliance {:.2}; {:.0} kg, {:.2} m; pale body: the input",
-            preset_name(answer.settings.preset),
-            answer.settings.k,
-            answer.settings.compliance,
+            preset_name(settings.preset),
+            settings.k,
+            settings.compliance,
             answer.report.mass_kg,
             answer.report.height_m
         ),
@@ -91,7 +92,7 @@ fn subtitle(answer: &Answer, job: &RespondJob) -> String {
 
 fn panels(answer: &Answer, pushes: &[Push], shapes: &[(Node, usize, Shape)], from: f64, to: f64) -> Vec<Panel> {
     let frame_time = answer.clip.frame_time_secs();
-    let hips = answer.reduction.joint(Node::Hips).unwrap_or(0);
+    let hips = answer.prepared.reduction().joint(Node::Hips).unwrap_or(0);
     let last = answer.clip.frames().saturating_sub(1);
     (0..PANELS)
         .map(|index| {
@@ -99,8 +100,8 @@ fn panels(answer: &Answer, pushes: &[Push], shapes: &[(Node, usize, Shape)], fro
             let frame = ((wanted / frame_time).round() as usize).min(last);
             let time_secs = frame as f64 * frame_time;
             // Seen from the ground, which may have been jerked.
-            let ground = answer.pushed.deviation_at(time_secs).ground_shift / answer.reduction.scale();
-            let (mut ours, input) = (answer.clip.world(frame), answer.input.world(frame));
+            let ground = answer.pushed.deviation_at(time_secs).ground_shift / answer.prepared.reduction().scale();
+            let (mut ours, input) = (answer.clip.world(frame), answer.prepared.clip().world(frame));
             for joint in &mut ours {
                 joint.translation -= ground;
             }
@@ -130,7 +131,7 @@ fn panels(answer: &Answer, pushes: &[Push], shapes: &[(Node, usize, Shape)], fro
 
 fn camera(answer: &Answer, humanoid: &Humanoid, secs: f64) -> Camera {
     let frame = (secs / answer.clip.frame_time_secs()) as usize;
-    let world = answer.input.world(frame.min(answer.input.frames().saturating_sub(1)));
+    let world = answer.prepared.clip().world(frame.min(answer.prepared.clip().frames().saturating_sub(1)));
     Camera::three_quarter().about_heading(facing(&world, humanoid).unwrap_or(DVec3::Z))
 }
 

@@ -1,12 +1,12 @@
 //! The report of a response: the JSON of `--report`.
 
-use super::job::{Input, RespondJob};
+use super::job::RespondJob;
 use glam::DVec3;
 use serde::Serialize;
-use sinew_body::humanoid::{Node, Reduction};
+use sinew_body::humanoid::Node;
 use sinew_motion::formats::MotionFile;
-use sinew_motion::{Clip, Humanoid, Part, Side, contacts};
-use sinew_response::{Coordinates, Preset, Push, PushFrame, Settings, Track};
+use sinew_motion::{Clip, Error, Humanoid, Part, Side, contacts};
+use sinew_response::{Coordinates, Preset, PreparedClip, Push, PushFrame, Track};
 use std::collections::BTreeMap;
 
 /// A joint within this of the run without pushes has recovered \[rad\]: 2 degrees.
@@ -77,19 +77,16 @@ pub struct PushReport {
 }
 
 impl RespondReport {
-    #[allow(clippy::too_many_arguments, reason = "a report looks at everything")]
     pub(super) fn of(
         file: &MotionFile,
-        humanoid: &Humanoid,
         job: &RespondJob,
-        settings: &Settings,
-        input: &Input,
-        cycle: Option<(usize, usize)>,
+        prepared: &PreparedClip,
         clip: &Clip,
-        reduction: &Reduction,
         pushed: &Track,
         unpushed: &Track,
-    ) -> RespondReport {
+    ) -> Result<RespondReport, Error> {
+        let settings = prepared.motion().stable_settings();
+        let body = prepared.reduction().body();
         let timeline = Timeline::of(pushed, unpushed);
         let end = f64::INFINITY;
         let acted = job.pushes.iter().zip(pushed.forces()).filter(|(_, force)| force.is_some());
@@ -97,7 +94,7 @@ impl RespondReport {
         let disturbances = disturbances.chain(job.ground.iter().map(|jerk| (jerk.at_secs, jerk.for_secs)));
         let last_end = disturbances.clone().map(|(at, lasts)| at + lasts).fold(f64::NEG_INFINITY, f64::max);
         let finite = pushed.is_finite() && clip.first_non_finite().is_none();
-        let stance = StanceDeviation::of(humanoid, input, clip, pushed, reduction);
+        let stance = StanceDeviation::of(file.body_parts()?, prepared, clip, pushed);
         let pushes = job
             .pushes
             .iter()
@@ -107,7 +104,7 @@ impl RespondReport {
                 PushReport::of(push, pushed.forces()[index], &timeline, &stance, finite, next)
             })
             .collect();
-        RespondReport {
+        Ok(RespondReport {
             file: file.path.display().to_string(),
             preset: preset_name(settings.preset).to_owned(),
             k: settings.k,
@@ -116,9 +113,9 @@ impl RespondReport {
                 Coordinates::High => "high".to_owned(),
             },
             compliance: settings.compliance,
-            cycle,
-            mass_kg: reduction.body().mass_kg(),
-            height_m: reduction.body().stature_m(),
+            cycle: prepared.cycle(),
+            mass_kg: body.mass_kg(),
+            height_m: body.stature_m(),
             frames: clip.frames(),
             fps: clip.fps(),
             pushes,
@@ -127,7 +124,7 @@ impl RespondReport {
             recovered_after_s: (last_end > f64::NEG_INFINITY).then(|| timeline.recovered(last_end, end)).flatten(),
             stance_deviation_max_m: stance.largest(f64::NEG_INFINITY, end),
             finite,
-        }
+        })
     }
 }
 
@@ -217,16 +214,17 @@ struct StanceDeviation {
 }
 
 impl StanceDeviation {
-    fn of(humanoid: &Humanoid, input: &Input, clip: &Clip, track: &Track, reduction: &Reduction) -> StanceDeviation {
-        let standing = contacts(&input.clip, humanoid);
+    fn of(humanoid: &Humanoid, prepared: &PreparedClip, clip: &Clip, track: &Track) -> StanceDeviation {
+        let (input, scale) = (prepared.clip(), prepared.reduction().scale());
+        let standing = contacts(input, humanoid);
         let ankles = [(Side::Left, Part::LeftFoot), (Side::Right, Part::RightFoot)];
         let (mut before, mut after) = (Vec::new(), Vec::new());
         let mut rows = Vec::new();
-        for frame in input.first_frame..clip.frames() {
-            input.clip.world_into(frame, &mut before);
+        for frame in prepared.first_frame()..clip.frames() {
+            input.world_into(frame, &mut before);
             clip.world_into(frame, &mut after);
             let secs = frame as f64 * clip.frame_time_secs();
-            let ground = track.deviation_at(secs).ground_shift / reduction.scale();
+            let ground = track.deviation_at(secs).ground_shift / scale;
             for (side, part) in ankles {
                 if let (true, Some(ankle)) = (standing.side(side)[frame], humanoid.joint(part)) {
                     let gap = after[ankle].translation - before[ankle].translation - ground;
