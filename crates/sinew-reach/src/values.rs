@@ -3,12 +3,15 @@
 use sinew_body::humanoid::{Body, Node};
 
 /// The style of a reach: the user's parameters. The defaults are a calm adult.
+///
+/// It takes effect with the next goal after [`Reacher::new`](crate::Reacher::new) or
+/// [`Reacher::set_style`](crate::Reacher::set_style), which refuse what is out of range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     /// Flexibility F of the legs, 0.25 to 4 \[1\]. The stoop range is arm length / F: for a target lower than that
     /// below the shoulder the body squats, and stoops for the rest. Default 1.
     pub flexibility: f64,
-    /// Peak speed of the hand \[m/s\], 0.05 to 10; under `print` the paper's start speed v_s. `None`: 1.15 m/s for a
+    /// Peak speed of the hand \[m/s\], 0.05 to 10; under `print` the paper's start speed v_s. Default `None`: 1.15 m/s for a
     /// path of 0.6 m and more for a longer one (see [`Values::hand_secs`]); 0.2 m/s under `print`.
     pub speed_m_s: Option<f64>,
     /// Time from start to arrival \[s\], 0.2 to 600, in place of a speed; applies to the whole body. Default `None`.
@@ -20,9 +23,9 @@ pub struct Style {
     /// Speed at which the head turns \[rad/s\], 0.1 to 20. Default 2.5.
     pub head_speed_rad_s: f64,
     /// Literal mode, the paper as printed where it can be built: EQ1 to 4 for the hand, one step at most, piecewise
-    /// linear arcs, thirds of a swing to each of the three joints, the head with the arm.
+    /// linear arcs, thirds of a swing to each of the three joints, the head with the arm. Default false.
     pub print: bool,
-    /// Seed of all random choices.
+    /// Seed of all random choices, read once, by [`Reacher::new`](crate::Reacher::new). Default 0.
     pub seed: u64,
 }
 
@@ -86,6 +89,9 @@ impl Style {
 
 /// The open values for one body. Lengths scale with it; angles and shares do not. Values that the paper states are
 /// those of its own adult figure.
+///
+/// Read-only: [`Values::of`] derives them from a body and a [`Style`], and they change with
+/// [`Reacher::set_style`](crate::Reacher::set_style) alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Values {
     /// From the shoulder joint to the centre of the hand, stretched \[m\].

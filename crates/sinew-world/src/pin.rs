@@ -12,31 +12,37 @@ use sinew_body::humanoid::log;
 ///
 /// A part without error in position and velocity gets the acceleration â if v̂ is the velocity at the end of the step.
 /// With â = 0 it lags.
+///
+/// It takes effect with the next step after [`World::set_pin`](crate::World::set_pin) and stays until another one is set. A pin with a
+/// gain out of range, a NaN, an infinity, a degenerate rotation or a position beyond 10 km holds nothing. [`Pin::LOOSE`] states the
+/// defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
-    /// Wanted position of the part's joint \[m\].
+    /// Wanted position of the part's joint \[m\], world.
     pub position: DVec3,
     /// Wanted `world_from_part`.
     pub rotation: DQuat,
-    /// Wanted velocity of the centre of mass \[m/s\].
+    /// Wanted velocity of the centre of mass \[m/s\], world, shortened to 400 m/s. Default zero.
     pub velocity: DVec3,
-    /// Wanted angular velocity \[rad/s\].
+    /// Wanted angular velocity \[rad/s\], world, shortened to 500 rad/s. Default zero.
     pub angular_velocity: DVec3,
-    /// Wanted acceleration of the centre of mass, added to the spring (feed-forward) \[m/s²\].
+    /// Wanted acceleration of the centre of mass, added to the spring (feed-forward) \[m/s²\], world, shortened to 1e5 m/s². Default
+    /// zero.
     pub acceleration: DVec3,
-    /// Torque added to the spring \[N m\].
+    /// Torque added to the spring \[N m\], world, shortened to 1e4 N m. Default zero.
     pub torque: DVec3,
-    /// Stiffness per unit mass \[1/s²\].
+    /// Stiffness per unit mass \[1/s²\], 0 to 1e9 (exclusive), default 0.
     pub stiffness: f64,
-    /// Damping per unit mass \[1/s\].
+    /// Damping per unit mass \[1/s\], 0 to 1e9 (exclusive), default 0.
     pub damping: f64,
-    /// Stiffness of the turn per unit inertia \[1/s²\].
+    /// Stiffness of the turn per unit inertia \[1/s²\], 0 to 1e9 (exclusive), default 0.
     pub turn_stiffness: f64,
-    /// Damping of the turn per unit inertia \[1/s\].
+    /// Damping of the turn per unit inertia \[1/s\], 0 to 1e9 (exclusive), default 0.
     pub turn_damping: f64,
-    /// Share of the part's weight that the pin carries, 0 to 1.
+    /// Share of the part's weight that the pin carries \[1\], clamped to 0 to 1, default 0.
     pub gravity_share: f64,
-    /// Maximum force \[N\]; the torque is reduced in the same proportion.
+    /// Maximum force \[N\], clamped to 0 to [`MAX_FORCE_N`](crate::MAX_FORCE_N), default infinite; the torque is reduced in the same
+    /// proportion.
     pub max_force_n: f64,
 }
 

@@ -4,25 +4,26 @@ use crate::{CharacterId, PropId, PropJointId, Solid, Surface};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Pose};
 
-/// Description of a character, from which a ragdoll is made.
+/// Description of a character, from which a ragdoll is made. It takes effect with
+/// [`World::add_character`](crate::World::add_character), which refuses what is out of range.
 #[derive(Clone, Debug)]
 pub struct CharacterSpec {
-    /// Masses, lengths, limits.
+    /// Masses, lengths, limits: every part 1e-6 to 1e6 kg and 0.1 mm to 10 km.
     pub body: Body,
-    /// Its initial pose.
+    /// Its initial pose, world; within 10 km of the origin.
     pub pose: Pose,
-    /// Velocity of the whole body \[m/s\].
+    /// Velocity of the whole body at the start \[m/s\], world, shortened to 400 m/s.
     pub velocity: DVec3,
-    /// Of its skin and soles.
+    /// Of its skin and soles. [`Surface::BODY`] is usual.
     pub surface: Surface,
 }
 
 /// How a prop moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Motion {
-    /// Dynamic: moved by forces and contacts, with this mass \[kg\].
+    /// Dynamic: moved by forces and contacts.
     Dynamic {
-        /// Mass.
+        /// Mass \[kg\], 1e-6 to 1e9.
         mass_kg: f64,
     },
     /// Never moves.
@@ -31,28 +32,29 @@ pub enum Motion {
     Moving,
 }
 
-/// A prop.
+/// A prop. It takes effect with [`World::add_prop`](crate::World::add_prop), which refuses what is out of range;
+/// [`PropSpec::new`] states the defaults.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PropSpec {
-    /// Its shape about its origin.
+    /// Its shape about its origin; sizes 0.1 mm to 10 km.
     pub solid: Solid,
     /// The kind of its motion.
     pub motion: Motion,
-    /// Its friction and restitution.
+    /// Its friction and restitution. Default friction 0.6, bounce 0.2.
     pub surface: Surface,
-    /// Position of its origin \[m\].
+    /// Initial position of its origin \[m\], world; within 10 km of the world's origin.
     pub position: DVec3,
-    /// `world_from_prop`.
+    /// `world_from_prop` at the start. Default no turn.
     pub rotation: DQuat,
-    /// Velocity \[m/s\].
+    /// Velocity at the start \[m/s\], world, shortened to 400 m/s. Default zero.
     pub velocity: DVec3,
-    /// Angular velocity \[rad/s\].
+    /// Angular velocity at the start \[rad/s\], world, shortened to 500 rad/s. Default zero.
     pub spin: DVec3,
-    /// A sensor: detects contacts without collision response.
+    /// A sensor: detects contacts without collision response. Default false.
     pub is_sensor: bool,
-    /// Factor on gravity.
+    /// Factor on gravity \[1\], clamped to −100 to 100. Default 1; see [`World::set_prop_gravity`](crate::World::set_prop_gravity).
     pub gravity_scale: f64,
-    /// Linear and angular damping \[1/s\].
+    /// Linear and angular damping \[1/s\], clamped to 0 to 1000. Default 0.
     pub drag_per_s: f64,
 }
 

@@ -8,13 +8,13 @@ use sinew_body::humanoid::Node;
 /// They mean per unit of mass and of inertia: read as N/m, 160 lets a trunk sag by 1.5 m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KdGains {
-    /// Stiffness of a part's pin, per unit of its mass \[1/s²\]; times [`KdGains::multiple`].
+    /// Stiffness of a part's pin, per unit of its mass \[1/s²\], 0 to 1e5, default 160; times [`KdGains::multiple`].
     pub k_p: f64,
-    /// Its damping, per unit of mass \[1/s\]; times the root of [`KdGains::multiple`], so that the damping ratio is the same everywhere.
+    /// Its damping, per unit of mass \[1/s\], 0 to 1e5, default 25; times the root of [`KdGains::multiple`], so that the damping ratio is the same everywhere.
     pub d_p: f64,
-    /// Stiffness of a joint, per unit of its outboard inertia \[1/s²\].
+    /// Stiffness of a joint, per unit of its outboard inertia \[1/s²\], 0 to 1e5, default 450.
     pub k_q: f64,
-    /// Its damping, per unit of inertia \[1/s\].
+    /// Its damping, per unit of inertia \[1/s\], 0 to 1e5, default 10.
     pub d_q: f64,
 }
 
@@ -93,9 +93,9 @@ pub enum KdDamping {
 /// Weights of a part's pin and of its joint spring: 1 full, 0 off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KdWeight {
-    /// Factor on k_p, 0 to 100; its root on d_p. Up to 1 it is also the share of the part's weight that is carried.
+    /// Factor on k_p \[1\], 0 to 100, default 1; its root on d_p. Up to 1 it is also the share of the part's weight that is carried.
     pub pin: f64,
-    /// Factor on k_q, 0 to 100; its root on d_q.
+    /// Factor on k_q \[1\], 0 to 100, default 1; its root on d_q.
     pub joint: f64,
 }
 
@@ -107,26 +107,27 @@ impl KdWeight {
     pub const FULL: KdWeight = KdWeight { pin: 1.0, joint: 1.0 };
 }
 
-/// Settings of the tracker `kd`.
+/// Settings of the tracker `kd`. They take effect when the tracker is made; gains, weights and pins can be changed later, over a time
+/// ([`KdTracker`](super::KdTracker)). Scenes and commands hold every number to its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KdSettings {
-    /// Stiffness and damping.
+    /// Stiffness and damping. Default those of [`KdPreset::Default`].
     pub gains: KdGains,
-    /// What is damped.
+    /// What is damped. Default [`KdDamping::Relative`].
     pub damping: KdDamping,
     /// Feed-forward: adds the forces that the wanted motion itself requires, from its accelerations. Without it the
-    /// body lags.
+    /// body lags. Default true.
     pub feed_forward: bool,
     /// Impact compliance: the trunk yields to impacts (contacts and pushes), which the gains alone would hardly allow;
-    /// slow loads meet full stiffness.
+    /// slow loads meet full stiffness. Default true.
     pub yields: bool,
     /// Contact support: pins fade by the share of the weight that contacts other than the ground carry: a box that it
-    /// sits on, a table that it leans on.
+    /// sits on, a table that it leans on. Default true.
     pub leans: bool,
-    /// Factor on the maximum force of a pin, 0 to 100: 1 is one and a half body weights for a part of a leg, four for
-    /// another.
+    /// Factor on the maximum force of a pin \[1\], 0 to 100, default 1: one and a half body weights for a part of a leg, four for
+    /// another. Weights are those in the world's own gravity, see [`strength_gravity_m_s2`](sinew_body::strength_gravity_m_s2).
     pub strength: f64,
-    /// By [`Node::index`].
+    /// By [`Node::index`]. Default [`KdWeight::FULL`] everywhere.
     pub weights: [KdWeight; Node::COUNT],
 }
 
