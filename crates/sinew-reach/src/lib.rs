@@ -14,7 +14,8 @@
 //! | legs: whether and how far to step (EQ9), strides | `legs.rs`, `walk.rs`, `feet.rs` |
 //! | scheduler: states 0 to 3 | `plan.rs`, `schedule.rs` |
 //! | open values | `values.rs` |
-//! | the pose it begins in; goals | `start.rs`, `reacher.rs` |
+//! | the pose it begins in; goals; targets that move | `start.rs`, `reacher.rs`, `moving_goal.rs` |
+//! | from start to end frame by frame; what came of it | `playback.rs`, `meter.rs` |
 //!
 //! ```
 //! use glam::DVec3;
@@ -47,10 +48,13 @@ mod head;
 mod heel;
 mod leg_place;
 mod legs;
+mod meter;
 mod minimum_jerk;
+mod moving_goal;
 mod obstacle;
 mod outcome;
 mod plan;
+mod playback;
 mod reacher;
 mod reacher_snapshot;
 mod rng;
@@ -68,9 +72,12 @@ pub use head::look;
 pub use legs::{
     StepChoice, StepKind, decide_step, ground_direction, half_probability, step_bias, step_length, step_probability,
 };
+pub use meter::{ReachFrame, ReachMeter};
 pub use minimum_jerk::{MinimumJerk, Value};
+pub use moving_goal::{MovingGoal, MovingGoalError, Waypoint};
 pub use obstacle::Obstacle;
 pub use outcome::{Outcome, Reason};
+pub use playback::ReachPlayback;
 pub use reacher::{Goal, Reacher};
 pub use rng::Rng;
 pub use route::MAX_OBSTACLES;
