@@ -5,9 +5,9 @@ use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_control::perform::LiveSource;
 use sinew_control::reflex::{Reflex, Sense};
 use sinew_control::source::{KeyPoses, Performer, PoseBook, SourceEvent, Sources};
-use sinew_control::tracker::{Gains, JointGain, PdTracker, TakeOver, Tracker, Wants};
+use sinew_control::tracker::{Gains, PdTracker, TakeOver, Tracker, Wants};
 use sinew_control::{Layer, Root, Wanted};
-use sinew_world::{CharacterId, PropId, World, outboard_inertias};
+use sinew_world::{CharacterId, PropId, World};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -40,10 +40,9 @@ impl Actor {
         book: Arc<PoseBook>,
         pose: &str,
         start: &Pose,
-        joints: &[JointGain; Node::COUNT],
+        springs: Gains,
         step_secs: f64,
     ) -> Actor {
-        let springs = Gains::of(body, &outboard_inertias(body), joints);
         Actor {
             id,
             sources: Sources::new(body, book, pose, start, step_secs),

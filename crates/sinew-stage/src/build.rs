@@ -13,9 +13,9 @@ use sinew_control::graph::{Graph, Touchable};
 use sinew_control::perform::LiveSource;
 use sinew_control::pose::{KeyPose, STAND, resolve_poses};
 use sinew_control::source::{ClipSource, Performer, PoseBook, Source};
-use sinew_control::tracker::{JointGain, TrackerKind};
+use sinew_control::tracker::{Gains, JointGain, TrackerKind};
 use sinew_control::{Layer, PoseSpec};
-use sinew_world::{Entity, PropJointKind, PropJointSpec, Surface, World, hips_over_soles_m};
+use sinew_world::{Entity, PropJointKind, PropJointSpec, Surface, World, hips_over_soles_m, outboard_inertias};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -80,7 +80,8 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
             let resolved = resolved.map_err(|error| wrong(Kind::Pose, format!("graphs.{graph}"), error.to_string()))?;
             graphs.insert(graph.clone(), resolved);
         }
-        let joints = joint_gains(spec);
+        let outboard = outboard_inertias(&cut.body);
+        let springs = Gains::of(&cut.body, &outboard, &joint_gains(spec), world.settings().gravity_m_s2);
         let pose = first_pose(spec, &poses);
         let start = match &cut.motion {
             Some(motion) => motion.pose_at(0.0),
@@ -99,7 +100,7 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         }
         let step_secs = world.settings().step_secs();
         let book = Arc::new(PoseBook { poses, graphs });
-        let mut actor = Actor::new(id, &cut.body, book, pose, &start, &joints, step_secs);
+        let mut actor = Actor::new(id, &cut.body, book, pose, &start, springs, step_secs);
         if let Some(motion) = cut.motion {
             actor.sources.follow(Box::new(motion));
         }

@@ -12,6 +12,7 @@ use crate::{CharacterSpec, Drive, Pin};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node};
+use sinew_body::strength_gravity_m_s2;
 
 /// How a part takes part in the physics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +51,6 @@ pub(crate) struct Character {
     pub before: [Before; Node::COUNT],
     /// The reaction body of its pins.
     pub reaction_body: Option<ReactionBody>,
-    limit_spring: LimitSpring,
     stays_awake: bool,
 }
 
@@ -63,7 +63,6 @@ impl Character {
         drives: [Drive; Node::COUNT],
         outboard: [f64; Node::COUNT],
     ) -> Character {
-        let limit_spring = LimitSpring::of(spec.body.mass_kg(), spec.body.stature_m());
         Character {
             spec,
             bodies,
@@ -80,7 +79,6 @@ impl Character {
             pushes: [[DVec3::ZERO; Node::COUNT]; 2],
             before: [Before::default(); Node::COUNT],
             reaction_body: None,
-            limit_spring,
             stays_awake: false,
         }
     }
@@ -146,16 +144,18 @@ impl Character {
         let local = (parent_rotation.conjugate() * self.rotation(engine, node)).normalize();
         let drive = self.drives[node.index()];
         let limit = self.body().link(node).limit;
-        let (weight_n, stature_m) = (self.body().mass_kg() * 9.81, self.body().stature_m());
+        let (mass_kg, stature_m) = (self.body().mass_kg(), self.body().stature_m());
+        let gravity_m_s2 = strength_gravity_m_s2(engine.gravity.y);
+        let limit_spring = LimitSpring::of(mass_kg, gravity_m_s2, stature_m);
         let handle = self.joints[node.index()];
         let place = engine.bodies.get(self.bodies[node.index()]).map_or(DVec3::ZERO, RigidBody::translation);
         let borne = &mut self.borne[node.index()];
         let Some(joint) = engine.joints.get(handle) else { return };
-        *borne = borne.after(joint, &engine.bodies, sub_step_secs).handed_on(weight_n, stature_m);
+        *borne = borne.after(joint, &engine.bodies, sub_step_secs).handed_on(mass_kg * gravity_m_s2, stature_m);
         let Some(joint) = engine.joints.get_mut(handle, false) else { return };
         let write = if is_hinge(node) { write_hinge } else { write_ball };
         let start = Start { step_secs, sub_step_secs, torque: parent_rotation.conjugate() * borne.torque };
-        let torque = write(&mut joint.data, &limit, &self.limit_spring, &drive, local, start);
+        let torque = write(&mut joint.data, &limit, &limit_spring, &drive, local, start);
         borne.torque = parent_rotation * torque;
         loads[parent.index()].add(borne.force, place, borne.torque - drive.torque);
         loads[node.index()].add(-borne.force, place, drive.torque - borne.torque);

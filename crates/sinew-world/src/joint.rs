@@ -25,9 +25,10 @@ pub(crate) struct LimitSpring {
 }
 
 impl LimitSpring {
-    /// For a body of this mass and stature: one and a half degrees beyond the limit balance about a fifth of m g h.
-    pub fn of(mass_kg: f64, stature_m: f64) -> LimitSpring {
-        LimitSpring { strength: 0.05 * mass_kg * 9.81 * stature_m, sharpness: 60.0, damping_secs: 0.01 }
+    /// For a body of this mass and stature in a world of this gravity: one and a half degrees beyond the limit balance about a
+    /// fifth of m g h.
+    pub fn of(mass_kg: f64, gravity_m_s2: f64, stature_m: f64) -> LimitSpring {
+        LimitSpring { strength: 0.05 * mass_kg * gravity_m_s2 * stature_m, sharpness: 60.0, damping_secs: 0.01 }
     }
 
     /// Stiffness \[N m/rad\] whose straight line through the limit has the exponential's torque at this violation \[rad\].
@@ -280,4 +281,24 @@ fn set(joint: &mut GenericJoint, axis: JointAxis, target: f64, row: Row) {
     }
     joint.set_motor_model(axis, MotorModel::ForceBased);
     joint.set_motor(axis, target, row.velocity, row.stiffness, row.damping);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sinew_body::{STANDARD_GRAVITY_M_S2, strength_gravity_m_s2};
+
+    #[test]
+    fn on_the_moon_a_limit_gives_way_as_far_to_the_weight_of_the_same_body() {
+        const MOON_M_S2: f64 = 1.62;
+        let of = |gravity_m_s2| LimitSpring::of(80.0, strength_gravity_m_s2(gravity_m_s2), 1.7);
+        let (earth, moon) = (of(STANDARD_GRAVITY_M_S2), of(MOON_M_S2));
+        for degrees in [0.1_f64, 0.5, 1.0, 1.5, 5.0] {
+            let violation = degrees.to_radians();
+            let ratio = moon.secant(violation) / earth.secant(violation);
+            // Rounding of three products.
+            assert!((ratio - MOON_M_S2 / STANDARD_GRAVITY_M_S2).abs() < 1e-12, "{degrees} degrees: {ratio}");
+        }
+        assert!(of(0.0).secant(0.02) > 0.0, "what weighs nothing has limits too");
+    }
 }

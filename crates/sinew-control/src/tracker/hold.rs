@@ -65,7 +65,9 @@ impl Hold {
         // These pins have no feed-forward acceleration: an increased target velocity compensates for it.
         let lead_secs = (1.0 + step_secs * damping + step_secs * step_secs * stiffness)
             / (damping + step_secs * stiffness).max(1e-9);
-        let max_forces = Node::ALL.map(|node| body.link(node).mass_kg * (self.grip.max_acceleration + GRAVITY));
+        // What a pin carries of a part's weight comes out of its largest force.
+        let gravity_m_s2 = world.settings().gravity_m_s2.abs();
+        let max_forces = Node::ALL.map(|node| body.link(node).mass_kg * (self.grip.max_acceleration + gravity_m_s2));
         let outboard = world.outboard_inertias(character).copied().unwrap_or([0.0; Node::COUNT]);
         let mut spins = [DVec3::ZERO; Node::COUNT];
         for node in Node::ALL {
@@ -108,9 +110,6 @@ impl Hold {
         self.now = next;
     }
 }
-
-/// The carried weight counts towards a pin's maximum force \[m/s²\].
-const GRAVITY: f64 = 9.81;
 
 /// Joints are nearly limp, with the friction that they have anyway: relative to their outboard inertia \[1/s²\],
 /// \[1/s\].

@@ -18,9 +18,20 @@ pub struct PdTracker {
 sinew_snapshot::snapshot!(PdTracker {} fixed { gains });
 
 impl PdTracker {
-    /// For a body, with the spring of each joint by [`Node::index`].
-    pub fn new(body: &Body, joints: &[JointGain; Node::COUNT]) -> PdTracker {
-        PdTracker::with(Gains::of(body, &outboard_inertias(body), joints))
+    /// For a body in a world of this downward gravity \[m/s²\], with the spring of each joint by [`Node::index`].
+    ///
+    /// ```
+    /// use sinew_body::humanoid::{Body, Node};
+    /// use sinew_control::tracker::{JointGain, PdTracker};
+    ///
+    /// let body = Body::standard(80.0, 1.7);
+    /// let on_earth = PdTracker::new(&body, &[JointGain::DEFAULT; Node::COUNT], 9.81);
+    /// let on_the_moon = PdTracker::new(&body, &[JointGain::DEFAULT; Node::COUNT], 1.62);
+    /// let ankle = Node::LeftFoot.index();
+    /// assert!(on_the_moon.gains().stiffness[ankle] < 0.2 * on_earth.gains().stiffness[ankle], "it has less to carry");
+    /// ```
+    pub fn new(body: &Body, joints: &[JointGain; Node::COUNT], gravity_m_s2: f64) -> PdTracker {
+        PdTracker::with(Gains::of(body, &outboard_inertias(body), joints, gravity_m_s2))
     }
 
     /// With stiffness and damping of every joint.

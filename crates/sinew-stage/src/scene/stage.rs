@@ -4,6 +4,7 @@ use super::error::Fault;
 use super::range::{count, number};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use sinew_body::STANDARD_GRAVITY_M_S2;
 use sinew_world::{Surface, WorldSettings};
 
 /// Rates, gravity, floor: settings of the whole scene.
@@ -63,7 +64,7 @@ impl Default for StageSpec {
         StageSpec {
             physics_hz: 240,
             motion_hz: 60,
-            gravity_m_s2: 9.81,
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
             seed: 1,
             duration_secs: 4.0,
             solver_iterations: 4,

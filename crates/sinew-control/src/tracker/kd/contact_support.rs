@@ -9,6 +9,7 @@
 
 use glam::DVec3;
 use sinew_body::humanoid::Node;
+use sinew_body::strength_gravity_m_s2;
 use sinew_world::{CharacterId, Entity, PropId, World};
 
 /// Maximum share of the weight on a seat: the legs stand on the ground \[1\].
@@ -43,7 +44,7 @@ impl ContactSupport {
     pub(super) fn feel(&mut self, world: &World, character: CharacterId, ground: Option<PropId>, hips_m: f64) {
         let step_secs = world.settings().step_secs();
         let mass_kg = world.body(character).map_or(80.0, |body| body.mass_kg());
-        let weight_n = mass_kg * world.settings().gravity_m_s2.max(0.1);
+        let weight_n = mass_kg * strength_gravity_m_s2(world.settings().gravity_m_s2);
         let force_n = borne_n(world, character, ground);
         self.force_n += (force_n.max(0.0) - self.force_n) * (step_secs / FELT_SECS).min(1.0);
         let low_m = self.low_m.unwrap_or(hips_m).min(hips_m);

@@ -18,6 +18,7 @@ mod inertial_blend;
 mod ramp;
 mod self_collision;
 mod settings;
+mod strength;
 mod transition;
 
 pub use settings::{KdDamping, KdGains, KdPreset, KdSettings, KdWeight};
@@ -34,6 +35,7 @@ use ramp::Ramp;
 use self_collision::SelfCollision;
 use sinew_body::humanoid::{Body, Node, Pose, log};
 use sinew_world::{CharacterId, Drive, Pin, PropId, World};
+use strength::max_pin_forces_n;
 use transition::Transition;
 
 /// Follows wanted poses with forces on every part and torques in every joint.
@@ -81,7 +83,6 @@ pub struct KdTracker {
     pins: Ramp,
     pin_weights: [Ramp; Node::COUNT],
     joint_weights: [Ramp; Node::COUNT],
-    largest_n: [f64; Node::COUNT],
     clock: Clock,
     interpolator: PoseInterpolator,
     wanted: Pose,
@@ -123,10 +124,6 @@ const JUMP_RAD: f64 = 1.2;
 /// Duration of the inertial blend over a jump \[s\].
 const JUMP_SECS: f64 = 0.5;
 
-/// Maximum force of a pin: of a part of a leg, and of another one \[body weights\]; times [`KdSettings::strength`]. A
-/// stronger foot would lift any object above it.
-const MAX_WEIGHTS: [f64; 2] = [1.5, 4.0];
-
 /// Friction of a joint without a spring, relative to its outboard inertia \[1/s\].
 const LIMP_DAMPING: f64 = 1.0;
 
@@ -135,8 +132,6 @@ impl KdTracker {
     pub fn new(body: &Body, settings: KdSettings, time_step_secs: f64, first: &Pose) -> KdTracker {
         let gains = settings.gains;
         let now = Instant::of(body, first);
-        let strength_n = body.mass_kg() * 9.81 * settings.strength;
-        let most = |node: Node| strength_n * MAX_WEIGHTS[usize::from(!node.is_leg())];
         KdTracker {
             joint_gain: [1.0; Node::COUNT],
             torque: [DVec3::ZERO; Node::COUNT],
@@ -146,7 +141,6 @@ impl KdTracker {
             pin_weights: settings.weights.map(|weight| Ramp::at(weight.pin)),
             joint_weights: settings.weights.map(|weight| Ramp::at(weight.joint)),
             settings,
-            largest_n: Node::ALL.map(most),
             clock: Clock::new(time_step_secs),
             interpolator: PoseInterpolator::rest(first),
             wanted: *first,
@@ -375,6 +369,8 @@ impl KdTracker {
     /// `progress` of the transition: legs are stiffer than the rest when they stand, not during it.
     fn hold(&self, world: &mut World, character: CharacterId, next: &Instant, progress: f64, step_secs: f64) {
         let Some(outboard) = world.outboard_inertias(character).copied() else { return };
+        let Some(body) = world.body(character) else { return };
+        let max_forces_n = max_pin_forces_n(body, world.settings().gravity_m_s2, self.settings.strength);
         let carried = self.carrier.and_then(|carrier| carrier.now(world));
         let [k_p, d_p, k_q, d_q] = self.gains.map(|gain| gain.value());
         let (pins, carries) = (self.pins.value() * self.contact_support.factor(), self.carries.value());
@@ -433,7 +429,7 @@ impl KdTracker {
                     stiffness,
                     damping,
                     gravity_share: share,
-                    max_force_n: self.largest_n[at],
+                    max_force_n: max_forces_n[at],
                     ..Pin::LOOSE
                 }
             });

@@ -3,7 +3,8 @@
 #![allow(dead_code, reason = "each user takes what it needs")]
 
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, LEGS, Node, Pose, exp};
+use sinew_body::STANDARD_GRAVITY_M_S2;
+use sinew_body::humanoid::{Body, LEGS, Node, Pose, exp, support_margin_m};
 use sinew_control::reflex::{Balance, BalanceSettings, Reflex, Sense};
 use sinew_control::tracker::{JointGain, PdTracker, Tracker as _};
 use sinew_control::{JointTarget, Wanted};
@@ -81,7 +82,7 @@ impl Standing {
         let spec = CharacterSpec { body: body.clone(), pose, velocity: DVec3::ZERO, surface: Surface::BODY };
         world.add_character(spec).expect("a body");
         let reflex = Balance::new(&body, settings);
-        let tracker = PdTracker::new(&body, &[JointGain::DEFAULT; Node::COUNT]);
+        let tracker = PdTracker::new(&body, &[JointGain::DEFAULT; Node::COUNT], STANDARD_GRAVITY_M_S2);
         let mut standing =
             Standing { world, body, reflex, tracker, target: wanted.clone(), wanted, start: [DVec3::ZERO; 2] };
         standing.start = standing.feet();
@@ -139,7 +140,7 @@ impl Standing {
         let (mut inside, mut outside) = (0.0, 2.0);
         for _ in 0..60 {
             let middle = 0.5 * (inside + outside);
-            if sinew_world::margin(&me.support, me.centre_of_mass + direction * middle) > 0.0 {
+            if support_margin_m(&me.support, me.centre_of_mass + direction * middle) > 0.0 {
                 inside = middle;
             } else {
                 outside = middle;
