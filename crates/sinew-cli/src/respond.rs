@@ -157,10 +157,10 @@ fn in_folder(folder: &Path) -> Files {
 
 fn write(files: &Files, file: &MotionFile, answer: &Answer, job: &RespondJob) -> Result<Vec<Note>> {
     let mut notes = Vec::new();
-    let body = body_shapes(&answer.reduction.shapes());
+    let body = body_shapes(&answer.prepared.reduction().shapes());
     for path in &files.motions {
         output::make_folder(path)?;
-        notes.extend(file.write(path, &answer.clip, &answer.rows, &body)?);
+        notes.extend(file.write(path, &answer.clip, answer.rows(), &body)?);
     }
     files.write_report(&answer.report)?;
     if let Some(path) = &files.picture {

@@ -1,6 +1,6 @@
 //! The state of a world after a step: everything that controllers read, files store and clients receive.
 
-use crate::{CharacterId, ExternalForces, PropId, margin};
+use crate::{CharacterId, ExternalForces, PropId};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, support_margin_m};
 

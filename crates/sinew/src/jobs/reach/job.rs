@@ -1,13 +1,14 @@
 //! From a target to a motion.
 
-use super::meter::{Instant, ReachMeter};
 use super::report::ReachReport;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, ReductionError};
 use sinew_control::source::{ClipSource, HAND_OVER_SECS, Source as _, handed_over};
 use sinew_motion::formats::MotionFile;
 use sinew_motion::resample;
-use sinew_reach::{Goal, Obstacle, Reacher, Start, Style, StyleError, standing};
+use sinew_reach::{
+    Goal, MovingGoal, MovingGoalError, Obstacle, ReachMeter, ReachPlayback, Reacher, Start, Style, StyleError, Waypoint, standing,
+};
 use sinew_stage::{RecordedCharacter, RecordedProp, Recording};
 use sinew_world::{Form, Solid, hips_over_soles_m};
 
@@ -85,18 +86,12 @@ pub enum ReachError {
     /// A dial is out of range.
     #[error(transparent)]
     Style(#[from] StyleError),
-    /// A target that is too far away, or NaN \[m\].
-    #[error("a target of {0} is out of range; give metres, at most {MAX_M:.0}")]
-    TargetOutOfRange(DVec3),
+    /// A target that is out of range, or whose times are.
+    #[error(transparent)]
+    Goal(#[from] MovingGoalError),
     /// Neither hand has a target.
     #[error("nothing to reach; give --target X:Y:Z in metres: x to the left, y up, z forward")]
     NoTarget,
-    /// A time of a moving target that is negative, too late, or NaN \[s\].
-    #[error("a time of {0} s is out of range; it is 0 to {MAX_SECS:.0}")]
-    TimeOutOfRange(f64),
-    /// Times of a moving target that do not grow.
-    #[error("the times of --moving must grow from point to point")]
-    TimesNotGrowing,
     /// The clip ends before it is to be left.
     #[error("--from: the clip ends at {ends_secs:.2} s; leave it before, not at {from_secs} s")]
     ClipEnds {
@@ -126,13 +121,6 @@ fn is_person(error: &ReductionError) -> bool {
 
 /// Frames per second of the motion.
 const HZ: f64 = 60.0;
-
-/// How long the end is shown \[s\].
-const HOLD_SECS: f64 = 0.4;
-
-/// Farthest target \[m\] and longest time \[s\] that are taken.
-const MAX_M: f64 = 1e4;
-const MAX_SECS: f64 = 600.0;
 
 /// Makes the motion of a reach, from standing or from a clip.
 ///
@@ -179,41 +167,30 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
         Obstacle::Capsule { from: at, to: at, radius_m: ball.radius_m }
     });
     reacher.set_obstacles(&obstacles.collect::<Vec<_>>());
-    let mut goal = Goal { left: first(0), right: first(1) };
-    let targets: Vec<(usize, DVec3)> =
-        [(0, goal.left), (1, goal.right)].into_iter().filter_map(|(s, t)| Some((s, t?))).collect();
-    let shift_at = |secs: f64| job.moved(secs).map_or(DVec3::ZERO, |moved| DQuat::from_rotation_y(facing_rad) * moved);
-    // The target's way is known: the body goes where it will be.
-    reacher.reach(&goal);
-    let moves = !job.moving.is_empty();
-    let last_move = job.moving.iter().map(|point| point.secs).fold(0.0, f64::max);
-    let mut end = reacher.done_secs().max(last_move) + HOLD_SECS;
+    let goal = Goal { left: first(0), right: first(1) };
+    let begin = job.target.or(job.right).or(job.left).unwrap_or_default();
+    let waypoint = |to: &MovingPoint| Waypoint {
+        shift: DQuat::from_rotation_y(facing_rad) * (to.at - begin),
+        secs: to.secs,
+    };
+    let goal = MovingGoal::new(goal, job.moving.iter().map(waypoint).collect())?;
+    let sides: Vec<usize> = (0..2).filter(|&side| first(side).is_some()).collect();
+    let mut playback = ReachPlayback::new(reacher, goal, HZ);
     let mut poses: Vec<Pose> = Vec::new();
     let mut meter = ReachMeter::default();
-    let mut places: Vec<Vec<(DVec3, DQuat)>> = vec![Vec::new(); targets.len()];
-    let mut frame = 0;
-    while frame as f64 <= end * HZ + 0.5 && frame as f64 <= MAX_SECS * HZ {
-        let secs = frame as f64 / HZ;
-        reacher.advance(secs);
-        if moves {
-            let shift = shift_at(secs);
-            goal.left = first(0).map(|target| target + shift);
-            goal.right = first(1).map(|target| target + shift);
-            reacher.follow(&goal);
-            end = reacher.done_secs().max(last_move) + HOLD_SECS;
+    let mut places: Vec<Vec<(DVec3, DQuat)>> = vec![Vec::new(); sides.len()];
+    while let Some(now) = playback.next_frame() {
+        meter.watch(playback.reacher(), &body, &now, 1.0 / HZ);
+        poses.push(now.pose);
+        for (places, side) in places.iter_mut().zip(&sides) {
+            let at = if *side == 0 { now.goal.left } else { now.goal.right };
+            places.push((at.unwrap_or_default(), DQuat::IDENTITY));
         }
-        let pose = reacher.pose_at(secs);
-        meter.watch(&Instant { reacher: &reacher, secs, goal, body: &body, pose: &pose }, 1.0 / HZ);
-        poses.push(pose);
-        for (index, (side, _)) in targets.iter().enumerate() {
-            let at = if *side == 0 { goal.left } else { goal.right };
-            places[index].push((at.unwrap_or_default(), DQuat::IDENTITY));
-        }
-        frame += 1;
     }
-    let report = meter.report(&reacher, 0.0, reacher.done_secs());
+    let report = ReachReport::of(&meter, playback.reacher(), 0.0, playback.reacher().done_secs());
     if job.back {
-        way_back(&body, &mut reacher, clip.as_mut(), frame, &mut poses);
+        poses.extend(playback.stand_up());
+        poses.extend(afterwards(&body, &playback, clip.as_mut()));
     }
     let frames = poses.len();
     let ball = |name: String, radius_m: f64, rgb: [u8; 3], mut places: Vec<(DVec3, DQuat)>| {
@@ -221,8 +198,8 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
         places.resize(frames, last);
         RecordedProp { name, solid: Solid::new(Form::Ball { radius_m }), rgb: Some(rgb), is_sensor: false, places }
     };
-    let goals = targets.iter().zip(places).map(|((side, _), places)| {
-        let name = if targets.len() == 1 { "target" } else { ["leftTarget", "rightTarget"][*side] };
+    let goals = sides.iter().zip(places).map(|(side, places)| {
+        let name = if sides.len() == 1 { "target" } else { ["leftTarget", "rightTarget"][*side] };
         ball(name.to_owned(), TARGET_M, [0xd0, 0x40, 0x40], places)
     });
     let avoided = job.avoid.iter().enumerate().map(|(index, one)| {
@@ -240,24 +217,19 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
 /// How long what was before is shown afterwards \[s\].
 const AFTERWARDS_SECS: f64 = 2.0;
 
-/// Lets go and stands up from a frame on; where there is a clip, goes on with it from where it was left.
-fn way_back(body: &Body, reacher: &mut Reacher, clip: Option<&mut ClipSource>, frame: usize, poses: &mut Vec<Pose>) {
-    let secs = |frame: usize| frame as f64 / HZ;
-    reacher.advance(secs(frame));
-    reacher.release();
-    let stands = (reacher.done_secs() * HZ).ceil() as usize;
-    poses.extend((frame..stands).map(|frame| reacher.pose_at(secs(frame))));
-    let standing = reacher.pose_at(secs(stands));
-    let Some(clip) = clip else {
-        poses.push(standing);
-        return;
-    };
-    clip.resume(body, 0.0, secs(stands), &standing);
-    let last = stands + ((HAND_OVER_SECS + AFTERWARDS_SECS) * HZ) as usize;
-    poses.extend((stands..last).map(|frame| {
-        let since = secs(frame) - secs(stands);
-        handed_over(&reacher.pose_at(secs(frame)), &clip.pose_at(secs(frame)), since)
-    }));
+/// What follows once the body stands again: standing, or, where there is a clip, going on with it from where it was left.
+fn afterwards(body: &Body, playback: &ReachPlayback, clip: Option<&mut ClipSource>) -> Vec<Pose> {
+    let (from_secs, standing) = (playback.now_secs(), playback.reacher().pose_at(playback.now_secs()));
+    let Some(clip) = clip else { return vec![standing] };
+    clip.resume(body, 0.0, from_secs, &standing);
+    let frames = ((HAND_OVER_SECS + AFTERWARDS_SECS) * HZ) as usize;
+    let first = (from_secs * HZ).round() as usize;
+    (first..first + frames)
+        .map(|frame| {
+            let secs = frame as f64 / HZ;
+            handed_over(&playback.reacher().pose_at(secs), &clip.pose_at(secs), secs - from_secs)
+        })
+        .collect()
 }
 
 /// Radius of a target's ball in pictures and files \[m\].
@@ -266,22 +238,8 @@ const TARGET_M: f64 = 0.045;
 impl ReachJob {
     fn check(&self) -> Result<(), ReachError> {
         self.style.check()?;
-        let places = [self.target, self.left, self.right].into_iter().flatten();
-        for place in places.clone().chain(self.moving.iter().map(|point| point.at)) {
-            if !place.is_finite() || place.abs().max_element() > MAX_M {
-                return Err(ReachError::TargetOutOfRange(place));
-            }
-        }
-        if places.count() == 0 {
+        if [self.target, self.left, self.right].iter().all(Option::is_none) {
             return Err(ReachError::NoTarget);
-        }
-        for point in &self.moving {
-            if !(0.0..=MAX_SECS).contains(&point.secs) {
-                return Err(ReachError::TimeOutOfRange(point.secs));
-            }
-        }
-        if self.moving.windows(2).any(|pair| pair[1].secs <= pair[0].secs) {
-            return Err(ReachError::TimesNotGrowing);
         }
         let Person { mass_kg, height_m } = self.person;
         let height_m = height_m.unwrap_or(1.7);
@@ -299,21 +257,6 @@ impl ReachJob {
             // Most people are right-handed: what is straight ahead is the right hand's.
             Hand::Auto => usize::from(self.target.is_none_or(|target| target.x < 0.06)),
         }
-    }
-
-    /// How far the target has moved from where it began \[m\]: smooth from point to point.
-    fn moved(&self, secs: f64) -> Option<DVec3> {
-        let begin = self.target.or(self.right).or(self.left)?;
-        let mut from = MovingPoint { at: begin, secs: 0.0 };
-        for to in &self.moving {
-            if secs < to.secs {
-                let share = (secs - from.secs) / (to.secs - from.secs).max(1e-6);
-                let share = share * share * share * (10.0 + share * (6.0 * share - 15.0));
-                return Some(from.at.lerp(to.at, share.clamp(0.0, 1.0)) - begin);
-            }
-            from = *to;
-        }
-        Some(from.at - begin)
     }
 }
 

@@ -2,10 +2,8 @@
 
 mod draw;
 mod job;
-mod meter;
 mod report;
 
 pub use draw::{contact_sheet, sheet};
 pub use job::{Ball, Hand, MovingPoint, ReachError, ReachJob, Reached, reach};
-pub use meter::{Instant, ReachMeter};
 pub use report::{ReachReport, StepReport};

@@ -1,6 +1,7 @@
 //! The report of a reach.
 
 use serde::Serialize;
+use sinew_reach::{ReachMeter, Reacher};
 
 /// One reach in the report of `sinew reach` and `sinew run`. Keys carry their units.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -45,9 +46,33 @@ pub struct StepReport {
 }
 
 /// Names of the two sides.
-pub(super) const SIDES: [&str; 2] = ["left", "right"];
+const SIDES: [&str; 2] = ["left", "right"];
 
 impl ReachReport {
+    /// What a meter saw, with what the plan says; `since_secs` is when the goal was given, `now_secs` the last frame, both in the
+    /// reacher's time \[s\].
+    pub fn of(meter: &ReachMeter, reacher: &Reacher, since_secs: f64, now_secs: f64) -> ReachReport {
+        let outcome = reacher.outcome();
+        let steps = outcome.steps.iter().filter(|step| step.start_secs >= since_secs - 1e-9);
+        ReachReport {
+            reached: outcome.is_reached() && meter.is_there(),
+            reason: meter.reason(reacher, now_secs).map(str::to_owned),
+            hands: (0..2).filter(|side| outcome.hands[*side]).map(|side| SIDES[side]).collect(),
+            hand_error_m: meter.hand_error_m(),
+            duration_s: outcome.arrives_secs - since_secs,
+            steps: steps
+                .map(|step| StepReport { foot: SIDES[step.side], kind: step.kind.name(), length_m: step.length_m })
+                .collect(),
+            twist_deg: outcome.twist_rad.to_degrees(),
+            swing_deg: outcome.swing_rad.to_degrees(),
+            squat_m: outcome.squat_m,
+            com_margin_m: meter.com_margin_m(),
+            planted_slip_m: meter.planted_slip_m(),
+            hand_speed_max_m_s: meter.hand_speed_max_m_s(),
+            seed: reacher.style().seed,
+        }
+    }
+
     /// As one line of text.
     pub fn words(&self) -> String {
         let steps: Vec<String> =

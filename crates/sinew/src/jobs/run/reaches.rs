@@ -1,6 +1,7 @@
 //! The reaches of a character in a run.
 
-use crate::jobs::reach::{Instant, ReachMeter, ReachReport};
+use crate::jobs::reach::ReachReport;
+use sinew_reach::{ReachFrame, ReachMeter};
 use sinew_stage::Stage;
 use sinew_world::CharacterId;
 
@@ -31,12 +32,12 @@ impl ReachWatch {
             self.count += 1;
         }
         let pose = stage.frame().characters[character.slot()].pose();
-        let now = Instant { reacher: reach.reacher, secs: reach.now_secs, goal: reach.goal, body, pose: &pose };
-        self.meter.watch(&now, 1.0 / f64::from(spec.motion_hz));
+        let now = ReachFrame { secs: reach.now_secs, goal: reach.goal, pose };
+        self.meter.watch(reach.reacher, body, &now, 1.0 / f64::from(spec.motion_hz));
         if self.count > MAX_REACHES {
             return;
         }
-        let report = self.meter.report(reach.reacher, reach.since_secs, reach.now_secs);
+        let report = ReachReport::of(&self.meter, reach.reacher, reach.since_secs, reach.now_secs);
         match reports.last_mut().filter(|_| !is_new) {
             Some(last) => *last = report,
             None => reports.push(report),
