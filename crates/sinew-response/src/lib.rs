@@ -32,6 +32,7 @@
 //! What it does not do: worlds, engines, files; steps, stumbles and falls.
 
 mod basis;
+mod deflection;
 mod force;
 mod hips;
 mod input;
@@ -56,6 +57,7 @@ mod track;
 mod upper_body;
 
 pub use basis::{Basis, BasisError};
+pub use deflection::{Deflection, StanceDeviation};
 pub use force::PointForce;
 pub use live::Live;
 pub use motion::Motion;

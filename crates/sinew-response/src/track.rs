@@ -137,6 +137,12 @@ impl Track {
         })
     }
 
+    /// The largest turn of any joint from the motion \[rad\].
+    pub fn largest_departure_rad(&self) -> f64 {
+        let turns = self.deviations.iter().flat_map(|deviation| deviation.turns.iter().chain([&deviation.hips_turn]));
+        turns.map(|turn| turn.length()).fold(0.0, f64::max)
+    }
+
     /// Whether every pose is finite.
     pub fn is_finite(&self) -> bool {
         self.poses.iter().all(Pose::is_finite)

@@ -2,13 +2,13 @@
 
 use super::answer::Answer;
 use super::job::RespondJob;
-use super::report::{Timeline, preset_name};
+use super::report::preset_name;
 use crate::figure::figure;
 use glam::DVec3;
 use sinew_body::humanoid::{Node, Shape};
 use sinew_motion::{Humanoid, facing, floor_height_m};
 use sinew_picture::{Arrow, Camera, Filmstrip, Limit, Mark, Panel, Plot, Series, Sheet, Style};
-use sinew_response::Push;
+use sinew_response::{Deflection, Push};
 
 /// Panels of the filmstrip.
 const PANELS: usize = 16;
@@ -27,7 +27,7 @@ pub fn sheet(answer: &Answer, humanoid: &Humanoid, job: &RespondJob, title: &str
         .map(|push| (push.at_secs, push.for_secs))
         .chain(job.ground.iter().map(|jerk| (jerk.at_secs, jerk.for_secs)))
         .collect();
-    let timeline = Timeline::of(&answer.pushed, &answer.unpushed);
+    let deflection = Deflection::between(&answer.pushed, &answer.unpushed);
     let begins = spans.iter().map(|(at, _)| *at).fold(f64::INFINITY, f64::min);
     let duration = answer.clip.duration_secs();
     let (from, to) = if begins <= duration {
@@ -61,7 +61,7 @@ pub fn sheet(answer: &Answer, humanoid: &Humanoid, job: &RespondJob, title: &str
         ..Sheet::default()
     };
     if !spans.is_empty() {
-        sheet.pieces.push(plot(&timeline, job, (begins - 0.3).max(0.0), (to + 1.0).min(duration)).into());
+        sheet.pieces.push(plot(&deflection, job, (begins - 0.3).max(0.0), (to + 1.0).min(duration)).into());
     }
     sheet
 }
@@ -135,7 +135,7 @@ fn camera(answer: &Answer, humanoid: &Humanoid, secs: f64) -> Camera {
     Camera::three_quarter().about_heading(facing(&world, humanoid).unwrap_or(DVec3::Z))
 }
 
-fn plot(timeline: &Timeline, job: &RespondJob, from: f64, to: f64) -> Plot {
+fn plot(deflection: &Deflection, job: &RespondJob, from: f64, to: f64) -> Plot {
     let pushes = job.pushes.iter().map(|push| Mark {
         from_secs: push.at_secs,
         to_secs: push.at_secs + push.for_secs,
@@ -148,11 +148,11 @@ fn plot(timeline: &Timeline, job: &RespondJob, from: f64, to: f64) -> Plot {
     });
     let mut peaks: Vec<(Node, f64)> = Node::ALL
         .into_iter()
-        .map(|node| (node, timeline.rows.iter().map(|(_, angles)| angles[node.index()]).fold(0.0, f64::max)))
+        .map(|node| (node, deflection.rows().iter().map(|(_, angles)| angles[node.index()]).fold(0.0, f64::max)))
         .collect();
     peaks.sort_by(|a, b| b.1.total_cmp(&a.1));
     let series = peaks.iter().take(LINES).map(|(node, _)| {
-        let rows = timeline.rows.iter().filter(|(secs, _)| (from..=to).contains(secs));
+        let rows = deflection.rows().iter().filter(|(secs, _)| (from..=to).contains(secs));
         Series::new(node.part().name(), rows.map(|(secs, angles)| (*secs, angles[node.index()].to_degrees())).collect())
     });
     Plot {

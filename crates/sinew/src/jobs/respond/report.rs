@@ -5,12 +5,9 @@ use glam::DVec3;
 use serde::Serialize;
 use sinew_body::humanoid::Node;
 use sinew_motion::formats::MotionFile;
-use sinew_motion::{Clip, Error, Humanoid, Part, Side, contacts};
-use sinew_response::{Coordinates, Preset, PreparedClip, Push, PushFrame, Track};
+use sinew_motion::{Clip, Error};
+use sinew_response::{Coordinates, Deflection, PreparedClip, Preset, Push, PushFrame, StanceDeviation, Track};
 use std::collections::BTreeMap;
-
-/// A joint within this of the run without pushes has recovered \[rad\]: 2 degrees.
-pub(super) const RECOVERED: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 /// The report of a response. Units are in the names.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -87,7 +84,7 @@ impl RespondReport {
     ) -> Result<RespondReport, Error> {
         let settings = prepared.motion().stable_settings();
         let body = prepared.reduction().body();
-        let timeline = Timeline::of(pushed, unpushed);
+        let deflection = Deflection::between(pushed, unpushed);
         let end = f64::INFINITY;
         let acted = job.pushes.iter().zip(pushed.forces()).filter(|(_, force)| force.is_some());
         let disturbances = acted.map(|(push, _)| (push.at_secs, push.for_secs));
@@ -101,7 +98,7 @@ impl RespondReport {
             .enumerate()
             .map(|(index, push)| {
                 let next = disturbances.clone().map(|(at, _)| at).filter(|&at| at > push.at_secs).fold(end, f64::min);
-                PushReport::of(push, pushed.forces()[index], &timeline, &stance, finite, next)
+                PushReport::of(push, pushed.forces()[index], &deflection, &stance, finite, next)
             })
             .collect();
         Ok(RespondReport {
@@ -119,10 +116,10 @@ impl RespondReport {
             frames: clip.frames(),
             fps: clip.fps(),
             pushes,
-            peak_deflection_deg: timeline.peaks(f64::NEG_INFINITY, end),
-            largest_departure_deg: largest_departure(pushed).to_degrees(),
-            recovered_after_s: (last_end > f64::NEG_INFINITY).then(|| timeline.recovered(last_end, end)).flatten(),
-            stance_deviation_max_m: stance.largest(f64::NEG_INFINITY, end),
+            peak_deflection_deg: peaks_deg(&deflection, f64::NEG_INFINITY, end),
+            largest_departure_deg: pushed.largest_departure_rad().to_degrees(),
+            recovered_after_s: (last_end > f64::NEG_INFINITY).then(|| deflection.recovered_secs(last_end, end)).flatten(),
+            stance_deviation_max_m: stance.largest_m(f64::NEG_INFINITY, end),
             finite,
         })
     }
@@ -132,7 +129,7 @@ impl PushReport {
     fn of(
         push: &Push,
         world_force_n: Option<DVec3>,
-        timeline: &Timeline,
+        deflection: &Deflection,
         stance: &StanceDeviation,
         finite: bool,
         next_secs: f64,
@@ -147,18 +144,12 @@ impl PushReport {
             world_force_n: world_force_n.map(|force| force.to_array()),
             at_s: push.at_secs,
             for_s: push.for_secs,
-            peak_deflection_deg: timeline.peaks(push.at_secs, next_secs),
-            recovered_after_s: world_force_n.and_then(|_| timeline.recovered(push.at_secs + push.for_secs, next_secs)),
-            stance_deviation_max_m: stance.largest(push.at_secs, next_secs),
+            peak_deflection_deg: peaks_deg(deflection, push.at_secs, next_secs),
+            recovered_after_s: world_force_n.and_then(|_| deflection.recovered_secs(push.at_secs + push.for_secs, next_secs)),
+            stance_deviation_max_m: stance.largest_m(push.at_secs, next_secs),
             finite,
         }
     }
-}
-
-/// The largest turn of any joint from the input \[rad\].
-fn largest_departure(track: &Track) -> f64 {
-    let turns = track.deviations().iter().flat_map(|deviation| deviation.turns.iter().chain([&deviation.hips_turn]));
-    turns.map(|turn| turn.length()).fold(0.0, f64::max)
 }
 
 /// The command line's word for a preset.
@@ -170,73 +161,9 @@ pub(super) fn preset_name(preset: Preset) -> &'static str {
     }
 }
 
-/// Every joint's deflection over time.
-pub(super) struct Timeline {
-    /// Time \[s\] and angle by node \[rad\].
-    pub rows: Vec<(f64, [f64; Node::COUNT])>,
-}
-
-impl Timeline {
-    pub(super) fn of(pushed: &Track, unpushed: &Track) -> Timeline {
-        let rows =
-            (0..pushed.poses().len()).map(|index| (pushed.secs(index), pushed.deflection(unpushed, index))).collect();
-        Timeline { rows }
-    }
-
-    fn peaks(&self, from_secs: f64, to_secs: f64) -> BTreeMap<String, f64> {
-        let mut peaks = [0.0; Node::COUNT];
-        for (_, angles) in self.rows.iter().filter(|(secs, _)| (from_secs..to_secs).contains(secs)) {
-            for (peak, angle) in peaks.iter_mut().zip(angles) {
-                *peak = f64::max(*peak, *angle);
-            }
-        }
-        let named = Node::ALL.iter().zip(peaks);
-        named.map(|(node, peak)| (node.part().name().to_owned(), peak.to_degrees())).collect()
-    }
-
-    /// Time from `end_secs` until every joint stays within 2 degrees up to `to_secs`.
-    pub(super) fn recovered(&self, end_secs: f64, to_secs: f64) -> Option<f64> {
-        let away = |angles: &[f64; Node::COUNT]| !angles.iter().all(|&angle| angle <= RECOVERED);
-        let rows = || self.rows.iter().filter(|(secs, _)| (end_secs..to_secs).contains(secs));
-        let (last, _) = rows().next_back()?;
-        match rows().rfind(|(_, angles)| away(angles)) {
-            None => Some(0.0),
-            Some((secs, _)) if secs == last => None,
-            Some((secs, _)) => rows().map(|(later, _)| *later).find(|later| later > secs).map(|back| back - end_secs),
-        }
-    }
-}
-
-/// How far stance ankles leave the input's over time.
-struct StanceDeviation {
-    /// Time \[s\] and distance \[m\].
-    rows: Vec<(f64, f64)>,
-}
-
-impl StanceDeviation {
-    fn of(humanoid: &Humanoid, prepared: &PreparedClip, clip: &Clip, track: &Track) -> StanceDeviation {
-        let (input, scale) = (prepared.clip(), prepared.reduction().scale());
-        let standing = contacts(input, humanoid);
-        let ankles = [(Side::Left, Part::LeftFoot), (Side::Right, Part::RightFoot)];
-        let (mut before, mut after) = (Vec::new(), Vec::new());
-        let mut rows = Vec::new();
-        for frame in prepared.first_frame()..clip.frames() {
-            input.world_into(frame, &mut before);
-            clip.world_into(frame, &mut after);
-            let secs = frame as f64 * clip.frame_time_secs();
-            let ground = track.deviation_at(secs).ground_shift / scale;
-            for (side, part) in ankles {
-                if let (true, Some(ankle)) = (standing.side(side)[frame], humanoid.joint(part)) {
-                    let gap = after[ankle].translation - before[ankle].translation - ground;
-                    rows.push((secs, gap.length()));
-                }
-            }
-        }
-        StanceDeviation { rows }
-    }
-
-    fn largest(&self, from_secs: f64, to_secs: f64) -> f64 {
-        let rows = self.rows.iter().filter(|(secs, _)| (from_secs..to_secs).contains(secs));
-        rows.map(|(_, gap)| *gap).fold(0.0, f64::max)
-    }
+/// The largest angle of every joint over a stretch of time, by the part's name \[deg\].
+fn peaks_deg(deflection: &Deflection, from_secs: f64, to_secs: f64) -> BTreeMap<String, f64> {
+    let peaks = deflection.peaks_rad(from_secs, to_secs);
+    let named = Node::ALL.iter().zip(peaks);
+    named.map(|(node, peak)| (node.part().name().to_owned(), peak.to_degrees())).collect()
 }
