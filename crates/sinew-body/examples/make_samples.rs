@@ -19,7 +19,12 @@ pub fn files() -> Result<[File; 2], Box<dyn Error>> {
     let mut text = Vec::new();
     bvh::write(&mut text, &job)?;
     let mut binary = Vec::new();
-    let shape = |(joint, shape): (usize, Shape)| BodyShape { joint, from: shape.from, to: shape.to, radius_m: shape.from_radius_m };
+    let shape = |(joint, shape): (usize, Shape)| BodyShape {
+        joint,
+        from: shape.from,
+        to: shape.to,
+        radius_m: shape.from_radius_m,
+    };
     let shapes: Vec<BodyShape> = walk.shapes().into_iter().map(shape).collect();
     gltf::write(&mut binary, &job, Format::Glb, &shapes)?;
     Ok([("walk.bvh", text), ("walk.glb", binary)])

@@ -65,7 +65,6 @@ pub use prepared::{PrepareError, Prepared};
 pub use prepared_clip::{Excerpt, PreparedClip};
 pub use push::{GroundJerk, Push, PushFrame};
 pub use response::{Report, Response};
-pub use stability::stable_compliance;
 pub use settings::{Coordinates, Preset, Settings, SettingsError};
 pub use task::Task;
 pub use torque::torques;

@@ -66,13 +66,8 @@ impl Motion {
         index(from_secs).min(end)..end
     }
 
-    /// The poses of [`Motion::range_secs`].
-    pub fn between_secs(&self, from_secs: f64, to_secs: f64) -> &[Pose] {
-        &self.poses[self.range_secs(from_secs, to_secs)]
-    }
-
     /// The body with its joint limits widened to contain all poses of this motion.
-    pub fn widen(&self, body: &mut Body) {
+    pub(crate) fn widen(&self, body: &mut Body) {
         for pose in &self.poses {
             body.widen_limits(pose);
         }

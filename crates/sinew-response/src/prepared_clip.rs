@@ -2,7 +2,7 @@
 
 use crate::basis::Basis;
 use crate::motion::Motion;
-use crate::prepared::{Prepared, PrepareError};
+use crate::prepared::{PrepareError, Prepared};
 use crate::settings::{Settings, SettingsError};
 use crate::track::Track;
 use sinew_body::humanoid::{Overlay, Reduction};

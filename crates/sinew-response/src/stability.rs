@@ -35,7 +35,7 @@ const HALVINGS: usize = 4;
 /// The compliance of `settings`, or the maximum below it at which small deviations decay on this motion within seconds;
 /// if they never decay so fast, the one at which they decay fastest. Of a long motion that is not a cycle, six
 /// stretches are examined, as if they followed each other.
-pub fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
+pub(crate) fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings, motion: &[Pose]) -> f64 {
     let stretches: Vec<&[Pose]> = if motion.len() <= STRETCHES * STRETCH {
         vec![motion]
     } else {

@@ -171,7 +171,7 @@ fn the_whole_job_and_a_single_run_of_the_response_agree_bit_for_bit() {
         let answer = respond(&case.file, &job, None).unwrap();
         let settings = case.stable(Settings::default());
         let happens = Disturbances { pushes: &[push], ground: &[] };
-        let track = Track::run(&case.body, &case.basis(&settings), &settings, &case.motion, happens);
+        let track = Track::run(case.body(), case.basis(), &settings, case.motion(), happens);
         assert_eq!(track.poses(), answer.pushed.poses(), "{name}");
         assert_eq!(settings, answer.prepared.motion().stable_settings(), "{name}");
     }
@@ -225,8 +225,9 @@ fn the_ground_carries_the_body_off_and_its_upper_part_lags_and_recovers() {
         let speed = (deviations[last].ground_shift - deviations[last - 60].ground_shift).x;
         assert!((speed - 0.8).abs() < 1e-6, "{name}: {speed}");
         // While the ground jerks to +x the head stays behind, towards -x, of where the ground alone would carry it.
-        let head =
-            |track: &Track, index: usize| track.poses()[index].positions(answer.prepared.reduction().body())[Node::Head.index()];
+        let head = |track: &Track, index: usize| {
+            track.poses()[index].positions(answer.prepared.reduction().body())[Node::Head.index()]
+        };
         let lag = (126..150).map(|index| {
             (head(&answer.pushed, index) - head(&answer.unpushed, index) - deviations[index].ground_shift).x
         });

@@ -70,7 +70,8 @@ where
 /// The hips' path that the standing feet dictate: stride \[m\] and the series beside the even progress.
 fn path(skeleton: &WalkSkeleton, gain: f64) -> (f64, [Series; 3]) {
     // From the hips to the foot's place on the floor.
-    let held = |phase: f64| standing(skeleton, roll(skeleton, phase, gain)).1 - measured_leg(skeleton, phase, gain).ankle;
+    let held =
+        |phase: f64| standing(skeleton, roll(skeleton, phase, gain)).1 - measured_leg(skeleton, phase, gain).ankle;
     let at = |index: usize| index as f64 / SAMPLES as f64;
     // One foot's share of the hips' speed, and of their height.
     let shares: Vec<(DVec3, f64)> = (0..SAMPLES)

@@ -7,6 +7,9 @@ mod dynamics_lanes;
 mod dynamics_vectors;
 mod limb_random;
 mod limb_targets;
+mod sample_files;
+mod walk;
+mod walk_table;
 
 use sinew_testkit::CountingAllocator;
 

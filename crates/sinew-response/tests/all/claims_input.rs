@@ -21,8 +21,8 @@ fn without_a_push_the_output_is_the_input_on_every_clip() {
     let Some(mocap) = mocap() else { return };
     let failures: Vec<String> = work(&EVERY_CLIP, |name| {
         let case = Case::load(&mocap, name, 8.0);
-        let (settings, input) = (case.stable(Settings::default()), case.motion.poses());
-        let track = Track::run(&case.body, &case.basis(&settings), &settings, &case.motion, Disturbances::default());
+        let (settings, input) = (case.stable(Settings::default()), case.motion().poses());
+        let track = Track::run(case.body(), case.basis(), &settings, case.motion(), Disturbances::default());
         let angle = largest_angle(track.poses(), input).to_degrees();
         let residual = track.reports().iter().map(|report| report.residual_n_m).fold(0.0, f64::max);
         // Torques here reach a hundred newton metres: this is their last digits.
@@ -43,7 +43,7 @@ fn the_solver_runs_without_a_push_too_as_its_residual_shows() {
     let Some(mocap) = mocap() else { return };
     let failures: Vec<String> = work(&EVERY_CLIP, |name| {
         let case = Case::load(&mocap, name, 3.0);
-        let (settings, input) = (case.stable(Settings::default()), case.motion.poses());
+        let (settings, input) = (case.stable(Settings::default()), case.motion().poses());
         let nothing = Push {
             part: Part::Head,
             point: None,
@@ -53,7 +53,7 @@ fn the_solver_runs_without_a_push_too_as_its_residual_shows() {
             frame: PushFrame::Facing,
         };
         let happens = Disturbances { pushes: &[nothing], ground: &[] };
-        let track = Track::run(&case.body, &case.basis(&settings), &settings, &case.motion, happens);
+        let track = Track::run(case.body(), case.basis(), &settings, case.motion(), happens);
         let angle = largest_angle(track.poses(), input).to_degrees();
         let residuals = || track.reports()[1..].iter().map(|report| report.residual_n_m);
         let (least, most) = (residuals().fold(f64::INFINITY, f64::min), residuals().fold(0.0, f64::max));

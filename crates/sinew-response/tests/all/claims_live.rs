@@ -4,33 +4,29 @@
 use glam::DVec3;
 use sinew_body::humanoid::{Node, Person, Pose, Reduction};
 use sinew_motion::formats::{MotionFile, ReadOptions};
-use sinew_motion::{Part, find_cycle, moves_from, repeat, resample};
-use sinew_response::{Basis, Disturbances, Live, Motion, PointForce, Push, PushFrame, Response, Settings, Track};
+use sinew_motion::{Part, moves_from, resample};
+use sinew_response::{
+    Disturbances, Excerpt, Motion, PointForce, Prepared, PreparedClip, Push, PushFrame, Settings, Track,
+};
 
 /// A walk of real capture, repeated, as the response sees it: filtered, and raw at the same instants.
 struct Walk {
-    reduction: Reduction,
-    motion: Motion,
+    prepared: Prepared,
     raw: Vec<Pose>,
-    basis: Basis,
-    settings: Settings,
 }
 
 fn walk() -> Option<Walk> {
     let path = sinew_testkit::capture("cmu_bvh_motionbuilder/07_01.bvh")?;
-    let settings = Settings::default();
     let file = MotionFile::read(&path, &ReadOptions::default()).unwrap();
     let humanoid = file.body_parts().unwrap();
     assert_eq!(moves_from(&file.clip, humanoid), 1);
     let person = Person { mass_kg: 80.0, height_m: Some(1.7) };
     let reduction = Reduction::new(&file.clip, humanoid, file.stature_m, person).unwrap();
-    let cycle = find_cycle(&file.clip, humanoid).unwrap();
-    let clip = repeat(&file.clip, humanoid, (cycle.first, cycle.last), 8).clip;
-    let motion = Motion::of_clip(&clip, &reduction, 0, &settings);
-    let at_rate = resample(&clip, 60.0);
-    let raw: Vec<Pose> = (0..at_rate.frames()).map(|frame| reduction.pose(&at_rate.world(frame))).collect();
-    let basis = Basis::of_motion(reduction.body(), motion.poses(), &settings).unwrap();
-    Some(Walk { reduction, motion, raw, basis, settings })
+    let excerpt = Excerpt { cycle: None, repeat: 8 };
+    let clip = PreparedClip::new(&file.clip, humanoid, reduction, excerpt, Settings::default()).unwrap();
+    let at_rate = resample(clip.clip(), 60.0);
+    let raw = (0..at_rate.frames()).map(|frame| clip.reduction().pose(&at_rate.world(frame))).collect();
+    Some(Walk { prepared: clip.motion().clone(), raw })
 }
 
 const PUSH: Push = Push {
@@ -48,17 +44,16 @@ const ACTS: std::ops::Range<usize> = 180..186;
 #[test]
 fn the_response_never_looks_ahead() {
     let Some(walk) = walk() else { return };
-    let mut body = walk.reduction.body().clone();
-    walk.motion.widen(&mut body);
     let happens = Disturbances { pushes: &[PUSH], ground: &[] };
-    let whole = Track::run(&body, &walk.basis, &walk.settings, &walk.motion, happens);
-    let poses = walk.motion.poses();
+    let whole = walk.prepared.run(happens);
+    let poses = walk.prepared.motion().poses();
     let cut = 240;
-    let short = Motion::of_poses(poses[..cut].to_vec(), &walk.settings);
-    let part = Track::run(&body, &walk.basis, &walk.settings, &short, happens);
+    let settings = walk.prepared.stable_settings();
+    let short = Motion::of_poses(poses[..cut].to_vec(), &settings);
+    let part = Track::run(walk.prepared.body(), walk.prepared.basis(), &settings, &short, happens);
     assert_eq!(part.poses(), &whole.poses()[..cut], "poses that are still to come change nothing");
     // The same poses one by one, as an engine hands them over.
-    let mut response = Response::new(body, walk.basis.clone(), walk.settings, &poses[0]);
+    let mut response = walk.prepared.response(&poses[0]);
     let force = PointForce::at_centre(Node::LeftHand, PUSH.force_n);
     let mut largest: f64 = 0.0;
     for next in 1..cut {
@@ -86,8 +81,6 @@ const CAUSAL_CHANGE_ON_AVERAGE: f64 = 0.10;
 #[test]
 fn a_live_stream_answers_as_a_clip_does() {
     let Some(walk) = walk() else { return };
-    let mut body = walk.reduction.body().clone();
-    walk.motion.widen(&mut body);
     let (mut changes, mut clip_sum, mut live_sum) = (Vec::new(), 0.0, 0.0);
     for direction in [DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z] {
         for phase in 0..8 {
@@ -95,8 +88,8 @@ fn a_live_stream_answers_as_a_clip_does() {
             let acts = start..start + 6;
             let push = Push { force_n: direction * 100.0, at_secs: start as f64 / 60.0, ..PUSH };
             let happens = Disturbances { pushes: &[push], ground: &[] };
-            let whole = Track::run(&body, &walk.basis, &walk.settings, &walk.motion, happens);
-            let mut live = Live::new(body.clone(), walk.basis.clone(), walk.settings, &walk.raw[0]);
+            let whole = walk.prepared.run(happens);
+            let mut live = walk.prepared.live(&walk.raw[0]);
             let force = PointForce::at_centre(Node::LeftHand, push.force_n);
             let (mut clip_peak, mut live_peak) = (0.0f64, 0.0f64);
             let largest = |turns: &[DVec3; 12]| turns.iter().map(|turn| turn.length()).fold(0.0, f64::max);
@@ -129,7 +122,7 @@ fn a_live_stream_answers_as_a_clip_does() {
 #[test]
 fn an_undisturbed_stream_passes_unchanged_and_a_broken_pose_is_held() {
     let Some(walk) = walk() else { return };
-    let mut live = Live::new(walk.reduction.body().clone(), walk.basis.clone(), walk.settings, &walk.raw[0]);
+    let mut live = walk.prepared.live(&walk.raw[0]);
     for (index, wanted) in walk.raw.iter().enumerate().take(300) {
         let mut given = *wanted;
         if index == 100 {

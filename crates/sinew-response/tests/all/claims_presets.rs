@@ -38,7 +38,7 @@ fn strays(case: &Case, settings: &Settings, cycles: usize) -> f64 {
             .into_iter()
             .fold(0.0, f64::max)
     };
-    let poses = unpushed.iter().zip(case.motion.poses()).take(cycles * case.period() + 1);
+    let poses = unpushed.iter().zip(case.motion().poses()).take(cycles * case.period() + 1);
     poses.map(|(ours, input)| angle(ours, input)).fold(0.0, f64::max).to_degrees()
 }
 

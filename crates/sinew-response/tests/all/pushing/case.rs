@@ -3,8 +3,8 @@
 
 use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction};
 use sinew_motion::formats::{MotionFile, ReadOptions};
-use sinew_motion::{Side, contacts, find_cycle, moves_from, repeat};
-use sinew_response::{Basis, Motion, Preset, Settings, stable_compliance};
+use sinew_motion::{Side, contacts, find_cycle, moves_from};
+use sinew_response::{Basis, Excerpt, Motion, Prepared, PreparedClip, Settings};
 use std::path::Path;
 use std::sync::Mutex;
 
@@ -13,15 +13,12 @@ pub struct Case {
     pub name: String,
     pub file: MotionFile,
     pub repeats: usize,
-    /// Limits widened to the motion.
-    pub body: Body,
-    pub motion: Motion,
-    /// The poses of one cycle: first and last \[s\]; of the whole clip when it has none.
-    cyclic_secs: Option<(f64, f64)>,
+    /// The file's clip, its cycle repeated where it is shorter than the window.
+    clip: PreparedClip,
     /// Per pose of the motion whether each foot stands, left and right.
     pub stance: Vec<[bool; 2]>,
-    /// What [`Case::stable`] has found already: the settings asked for, and those to use.
-    stable: Mutex<Vec<(Settings, Settings)>>,
+    /// The same motion with every settings that a claim has asked for: each keeps how loose it may be.
+    prepared: Mutex<Vec<Prepared>>,
 }
 
 /// The person of all claims unless said otherwise.
@@ -34,90 +31,78 @@ impl Case {
     }
 
     pub fn of_person(mocap: &Path, name: &str, window_secs: f64, person: Person) -> Case {
-        let settings = Settings::default();
         let file = MotionFile::read(&mocap.join(name), &ReadOptions::default()).unwrap();
         let humanoid = file.body_parts().unwrap();
-        let mut first_frame = moves_from(&file.clip, humanoid);
+        let frames = file.clip.frames() - moves_from(&file.clip, humanoid);
         let cycle = find_cycle(&file.clip, humanoid).map(|cycle| (cycle.first, cycle.last));
         let reduction = Reduction::new(&file.clip, humanoid, file.stature_m, person).unwrap();
-        let long_enough = |secs: f64| (file.clip.frames() - first_frame) as f64 * file.clip.frame_time_secs() >= secs;
-        let secs = |frame: usize| frame as f64 * file.clip.frame_time_secs();
-        let (input, cyclic_secs, repeats) = match cycle {
-            Some((first, last)) if !long_enough(window_secs + 3.0 * secs(last - first)) => {
-                let times = 3 + (window_secs / secs(last - first)).ceil() as usize;
-                let repeated = repeat(&file.clip, humanoid, (first, last), times);
-                first_frame = 0;
-                // A round in the middle, as `respond` takes.
-                let middle = times / 2 * (last - first);
-                (repeated.clip, Some((secs(middle), secs(middle + last - first))), times)
+        let secs = |frames: usize| frames as f64 * file.clip.frame_time_secs();
+        let repeats = match cycle {
+            Some((first, last)) if secs(frames) < window_secs + 3.0 * secs(last - first) => {
+                3 + (window_secs / secs(last - first)).ceil() as usize
             }
-            Some((first, last)) => (file.clip.clone(), Some((secs(first.max(first_frame)), secs(last))), 0),
-            None => (file.clip.clone(), None, 0),
+            _ => 0,
         };
-        let motion = Motion::of_clip(&input, &reduction, first_frame, &settings);
-        let mut body = reduction.body().clone();
-        motion.widen(&mut body);
-        let standing = contacts(&input, humanoid);
+        let excerpt = Excerpt { cycle, repeat: repeats };
+        let clip = PreparedClip::new(&file.clip, humanoid, reduction, excerpt, Settings::default()).unwrap();
+        let standing = contacts(clip.clip(), humanoid);
+        let motion = clip.motion().motion();
         let frame = |pose: usize| {
             let secs = motion.start_secs() + pose as f64 * motion.time_step_secs();
-            ((secs / input.frame_time_secs()).round() as usize).min(input.frames() - 1)
+            ((secs / clip.clip().frame_time_secs()).round() as usize).min(clip.clip().frames() - 1)
         };
         let stance = (0..motion.poses().len())
             .map(|pose| [Side::Left, Side::Right].map(|side| standing.side(side)[frame(pose)]))
             .collect();
-        let stable = Mutex::default();
-        Case { name: name.to_owned(), file, repeats, body, motion, cyclic_secs, stance, stable }
+        Case { name: name.to_owned(), repeats, clip, stance, prepared: Mutex::default(), file }
     }
 
-    /// The poses from which the basis is made.
-    pub fn cyclic(&self) -> &[Pose] {
-        match self.cyclic_secs {
-            Some((from, to)) => self.motion.between_secs(from, to),
-            None => self.motion.poses(),
-        }
+    /// Limits widened to the motion.
+    pub fn body(&self) -> &Body {
+        self.clip.motion().body()
     }
 
-    pub fn basis(&self, settings: &Settings) -> Basis {
-        Basis::of_motion(&self.body, self.cyclic(), settings).unwrap()
+    pub fn motion(&self) -> &Motion {
+        self.clip.motion().motion()
+    }
+
+    pub fn basis(&self) -> &Basis {
+        self.clip.motion().basis()
     }
 
     /// The settings as `respond` uses them: the dial stopped where the motion would no longer come back. The search is long, so
     /// that it is done once for the same settings.
     pub fn stable(&self, settings: Settings) -> Settings {
-        if settings.preset != Preset::Robust {
-            return settings;
+        let mut known = self.prepared.lock().unwrap();
+        if let Some(prepared) = known.iter().find(|prepared| *prepared.settings() == settings) {
+            return prepared.stable_settings();
         }
-        let mut known = self.stable.lock().unwrap();
-        if let Some((_, stable)) = known.iter().find(|(asked, _)| *asked == settings) {
-            return *stable;
-        }
-        let compliance = stable_compliance(&self.body, &self.basis(&settings), &settings, self.cyclic());
-        let stable = Settings { compliance, ..settings };
-        known.push((settings, stable));
+        let prepared = self.clip.motion().with_settings(settings).unwrap();
+        let stable = prepared.stable_settings();
+        known.push(prepared);
         stable
     }
 
-    /// Poses in one cycle.
+    /// Poses in one cycle; in the whole clip when it has none.
     pub fn period(&self) -> usize {
-        self.cyclic().len() - 1
+        self.clip.motion().measured().len() - 1
     }
 
     /// Where the pushes begin: at so many phases of the third cycle; of a clip without one, spread over its first half.
     pub fn onsets(&self, phases: usize) -> Vec<usize> {
         let (first, length) = if self.repeats > 0 {
             (2 * self.period(), self.period())
-        } else if let Some((from, to)) = self.cyclic_secs {
-            let index = |secs: f64| ((secs - self.motion.start_secs()) / self.motion.time_step_secs()).round() as usize;
-            (index(from), index(to) - index(from))
+        } else if self.clip.cycle().is_some() {
+            (self.clip.motion().measured().start, self.period())
         } else {
-            (10, self.motion.poses().len() / 2)
+            (10, self.motion().poses().len() / 2)
         };
         (0..phases).map(|phase| first + phase * length / phases).collect()
     }
 
     /// Poses whose ankles are at most this far apart \[m\], by foot.
     pub fn ankle_gap(&self, ours: &Pose, theirs: &Pose) -> [f64; 2] {
-        let (ours, theirs) = (ours.positions(&self.body), theirs.positions(&self.body));
+        let (ours, theirs) = (ours.positions(self.body()), theirs.positions(self.body()));
         [Node::LeftFoot, Node::RightFoot].map(|foot| (ours[foot.index()] - theirs[foot.index()]).length())
     }
 }

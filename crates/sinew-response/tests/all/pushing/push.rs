@@ -45,8 +45,8 @@ pub fn starts<'a>(
     onsets: &[usize],
     unpushed: &'a mut Vec<Pose>,
 ) -> Vec<Start<'a>> {
-    let input = case.motion.poses();
-    let mut response = Response::new(case.body.clone(), case.basis(settings), *settings, &input[0]);
+    let input = case.motion().poses();
+    let mut response = Response::new(case.body().clone(), case.basis().clone(), *settings, &input[0]);
     let backward = {
         let locals = Node::ALL.map(|node| {
             let (a, b) = (input[0].local(node), input[1].local(node));
@@ -105,8 +105,8 @@ impl Outcome {
 /// Pushes for some frames with a force in facing axes \[N\] and looks on for at most `window_secs` after its end.
 pub fn push(start: &Start, node: Node, force_n: DVec3, frames: usize, window_secs: f64) -> Outcome {
     let case = start.case;
-    let input = case.motion.poses();
-    let dt = case.motion.time_step_secs();
+    let input = case.motion().poses();
+    let dt = case.motion().time_step_secs();
     let force = PointForce::at_centre(node, facing(&start.shown) * force_n);
     let mut response = start.response.clone();
     let mut outcome = Outcome {
@@ -141,7 +141,7 @@ pub fn push(start: &Start, node: Node, force_n: DVec3, frames: usize, window_sec
             let peak = &mut outcome.peak_deg[node.index()];
             *peak = peak.max(angle.to_degrees());
             if node != Node::Hips {
-                let excess = case.body.link(node).limit.excess(ours);
+                let excess = case.body().link(node).limit.excess(ours);
                 if excess > outcome.excess.0 {
                     outcome.excess = (excess, node);
                 }

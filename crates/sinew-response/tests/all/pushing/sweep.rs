@@ -69,7 +69,7 @@ pub fn sweep<C: Borrow<Case> + Sync>(cases: &[C], settings: Settings, kind: Kind
     let indices: Vec<usize> = (0..cases.len()).collect();
     let runs = work(&indices, |&index| {
         let case = cases[index].borrow();
-        let newtons = kind.newtons * case.body.mass_kg() / 80.0;
+        let newtons = kind.newtons * case.body().mass_kg() / 80.0;
         let mut unpushed = Vec::new();
         let starts = starts(case, &case.stable(settings), &case.onsets(PHASES), &mut unpushed);
         let mut runs = Vec::new();

@@ -7,7 +7,8 @@ use sinew_control::source::{ClipSource, HAND_OVER_SECS, Source as _, handed_over
 use sinew_motion::formats::MotionFile;
 use sinew_motion::resample;
 use sinew_reach::{
-    Goal, MovingGoal, MovingGoalError, Obstacle, ReachMeter, ReachPlayback, Reacher, Start, Style, StyleError, Waypoint, standing,
+    Goal, MovingGoal, MovingGoalError, Obstacle, ReachMeter, ReachPlayback, Reacher, Start, Style, StyleError,
+    Waypoint, standing,
 };
 use sinew_stage::{RecordedCharacter, RecordedProp, Recording};
 use sinew_world::{Form, Solid, hips_over_soles_m};
@@ -169,10 +170,8 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
     reacher.set_obstacles(&obstacles.collect::<Vec<_>>());
     let goal = Goal { left: first(0), right: first(1) };
     let begin = job.target.or(job.right).or(job.left).unwrap_or_default();
-    let waypoint = |to: &MovingPoint| Waypoint {
-        shift: DQuat::from_rotation_y(facing_rad) * (to.at - begin),
-        secs: to.secs,
-    };
+    let waypoint =
+        |to: &MovingPoint| Waypoint { shift: DQuat::from_rotation_y(facing_rad) * (to.at - begin), secs: to.secs };
     let goal = MovingGoal::new(goal, job.moving.iter().map(waypoint).collect())?;
     let sides: Vec<usize> = (0..2).filter(|&side| first(side).is_some()).collect();
     let mut playback = ReachPlayback::new(reacher, goal, HZ);

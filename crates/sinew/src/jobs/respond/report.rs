@@ -118,7 +118,9 @@ impl RespondReport {
             pushes,
             peak_deflection_deg: peaks_deg(&deflection, f64::NEG_INFINITY, end),
             largest_departure_deg: pushed.largest_departure_rad().to_degrees(),
-            recovered_after_s: (last_end > f64::NEG_INFINITY).then(|| deflection.recovered_secs(last_end, end)).flatten(),
+            recovered_after_s: (last_end > f64::NEG_INFINITY)
+                .then(|| deflection.recovered_secs(last_end, end))
+                .flatten(),
             stance_deviation_max_m: stance.largest_m(f64::NEG_INFINITY, end),
             finite,
         })
@@ -145,7 +147,8 @@ impl PushReport {
             at_s: push.at_secs,
             for_s: push.for_secs,
             peak_deflection_deg: peaks_deg(deflection, push.at_secs, next_secs),
-            recovered_after_s: world_force_n.and_then(|_| deflection.recovered_secs(push.at_secs + push.for_secs, next_secs)),
+            recovered_after_s: world_force_n
+                .and_then(|_| deflection.recovered_secs(push.at_secs + push.for_secs, next_secs)),
             stance_deviation_max_m: stance.largest_m(push.at_secs, next_secs),
             finite,
         }

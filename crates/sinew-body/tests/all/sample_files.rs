@@ -1,6 +1,6 @@
 //! The sample files that the repository ships.
 
-#[path = "../examples/make_samples.rs"]
+#[path = "../../examples/make_samples.rs"]
 mod make_samples;
 
 use sinew_motion::formats::{Parsed, bvh, gltf};

@@ -1,8 +1,8 @@
 //! The generated walk stands on its feet, whatever is asked of it.
 
 use glam::DVec3;
-use sinew_body::walk::{Walk, WalkError};
 use sinew_body::humanoid::log;
+use sinew_body::walk::{Walk, WalkError};
 use sinew_motion::{Clip, Humanoid, Part, Side, Transform, find_cycle};
 
 /// Speeds \[m/s\], cadences \[steps/min\] and statures \[m\] from slow to fast and small to tall.
