@@ -103,7 +103,7 @@ pub struct KdTracker {
 sinew_snapshot::snapshot!(KdTracker {
     joint_gain, torque, settings, gains, carries, pins, pin_weights, joint_weights, clock, interpolator, wanted, raw, posed,
     raw_velocity, before, now, way, start, carrier, self_collision, impact_compliance, contact_support,
-} fixed { largest_n });
+});
 sinew_snapshot::snapshot!(enum Start { 0: No, 1: FromBody(over_secs) });
 
 /// What the next motion frame begins with.
