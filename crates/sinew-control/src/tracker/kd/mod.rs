@@ -101,8 +101,28 @@ pub struct KdTracker {
 }
 
 sinew_snapshot::snapshot!(KdTracker {
-    joint_gain, torque, settings, gains, carries, pins, pin_weights, joint_weights, clock, interpolator, wanted, raw, posed,
-    raw_velocity, before, now, way, start, carrier, self_collision, impact_compliance, contact_support,
+    joint_gain,
+    torque,
+    settings,
+    gains,
+    carries,
+    pins,
+    pin_weights,
+    joint_weights,
+    clock,
+    interpolator,
+    wanted,
+    raw,
+    posed,
+    raw_velocity,
+    before,
+    now,
+    way,
+    start,
+    carrier,
+    self_collision,
+    impact_compliance,
+    contact_support,
 });
 sinew_snapshot::snapshot!(enum Start { 0: No, 1: FromBody(over_secs) });
 
