@@ -78,7 +78,7 @@ impl Perform {
     fn send_vmc(&self, to: SocketAddr) -> Result<()> {
         let file = match &self.clip {
             Some(path) => MotionFile::read(path, &self.reading.options())?,
-            None => MotionFile::from_bvh(sinew::sample::WALK_BVH, &self.reading.options())?,
+            None => MotionFile::from_bvh(&sinew::stage::sample_walk_bvh()?, &self.reading.options())?,
         };
         let player = ClipPlayer::new(&file, self.fps.unwrap_or(60.0)).map_err(anyhow::Error::msg)?;
         let impairment = Impairment {
@@ -108,7 +108,7 @@ impl Perform {
         }
         let bytes = match &self.clip {
             Some(path) => bytes_of(path, &Limits::default())?,
-            None => sinew::sample::WALK_BVH.to_vec(),
+            None => sinew::stage::sample_walk_bvh()?,
         };
         let player = RawPlayer::new(&String::from_utf8_lossy(&bytes)).map_err(anyhow::Error::msg);
         let player = player

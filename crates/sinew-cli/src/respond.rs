@@ -95,7 +95,7 @@ impl Respond {
         let file = match &self.clip {
             Some(path) => MotionFile::read(path, &self.reading.options())?,
             None => {
-                let mut file = MotionFile::from_bvh(sinew::sample::WALK_BVH, &ReadOptions::default())?;
+                let mut file = MotionFile::from_bvh(&sinew::stage::sample_walk_bvh()?, &ReadOptions::default())?;
                 file.path = "sample walk".into();
                 file
             }

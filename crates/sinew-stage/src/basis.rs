@@ -1,13 +1,11 @@
 //! What a responding character responds by: the near-unactuated coordinates of its own clip, or the shipped walk's.
 
 use crate::motion_source::reduction;
+use crate::sample_walk_bvh;
 use crate::scene::CharacterSpec;
 use sinew_body::humanoid::{Body, Pose};
 use sinew_motion::formats::{MotionFile, ReadOptions};
 use sinew_response::{Motion, Prepared, Settings};
-
-/// The walk that lends its coordinates to characters without a clip of their own.
-const SAMPLE_WALK: &[u8] = include_bytes!("../../../samples/walk.bvh");
 
 /// Longest stretch of a clip that is looked at, in frames: ten seconds at 60 Hz show any style.
 const MAX_FRAMES: usize = 600;
@@ -23,8 +21,9 @@ pub(crate) fn prepared(
     let poses = match motion {
         Some(motion) => motion[..motion.len().min(MAX_FRAMES)].to_vec(),
         None => {
-            let sample =
-                MotionFile::from_bvh(SAMPLE_WALK, &ReadOptions::default()).map_err(|error| error.to_string())?;
+            // The sample walk lends its coordinates to characters without a clip of their own.
+            let bytes = sample_walk_bvh().map_err(|error| error.to_string())?;
+            let sample = MotionFile::from_bvh(&bytes, &ReadOptions::default()).map_err(|error| error.to_string())?;
             Motion::of_clip(&sample.clip, &reduction(&sample, spec)?, 0, &settings).poses().to_vec()
         }
     };

@@ -16,7 +16,8 @@ const SECS: f64 = 600.0;
 
 /// The sample walk's cycle, repeated for ten minutes, as a file would hold it.
 fn ten_minutes() -> Vec<u8> {
-    let file = MotionFile::from_bvh(sinew::sample::WALK_BVH, &ReadOptions::default()).expect("the sample");
+    let sample = sinew::stage::sample_walk_bvh().expect("the sample");
+    let file = MotionFile::from_bvh(&sample, &ReadOptions::default()).expect("the sample");
     let humanoid = file.body_parts().expect("a body");
     let cycle = find_cycle(&file.clip, humanoid).expect("a walk has a cycle");
     let cycle_secs = (cycle.last - cycle.first) as f64 * file.clip.frame_time_secs();

@@ -28,7 +28,6 @@
 //! | [`picture`] | filmstrips and plots |
 //! | [`snapshot`] | state as bytes |
 //! | [`jobs`] | what the program `sinew` does, as library calls |
-//! | [`sample`] | a walk that Sinew makes itself |
 //!
 //! | feature | gives |
 //! |---|---|
@@ -54,7 +53,6 @@ pub use sinew_world as world;
 
 pub mod figure;
 pub mod jobs;
-pub mod sample;
 
 /// The README's Rust examples compile.
 #[cfg(doctest)]

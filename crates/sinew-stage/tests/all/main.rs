@@ -5,6 +5,7 @@ mod hostile;
 mod live;
 mod orders;
 mod runner;
+mod sample_walk;
 mod scene_errors;
 mod scene_sets;
 mod scenes_page;
