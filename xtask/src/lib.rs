@@ -9,4 +9,5 @@ pub mod package;
 pub mod page;
 pub mod readme;
 pub mod repository;
+pub mod steps;
 pub mod two_hosts;

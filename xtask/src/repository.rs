@@ -23,6 +23,11 @@ pub fn files() -> Result<Vec<String>, String> {
     Ok(listed.split('\0').filter(present).map(str::to_owned).collect())
 }
 
+/// Where cargo puts what it builds.
+pub fn target() -> PathBuf {
+    env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from)
+}
+
 /// The folder of captured motion that is not part of the project, where there is one.
 pub fn shared() -> Option<PathBuf> {
     let folder = env::var_os("SINEW_SHARED").map_or_else(|| root().join("../shared"), PathBuf::from);

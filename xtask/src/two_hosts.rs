@@ -9,7 +9,7 @@
 
 use crate::{command, repository};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -44,7 +44,7 @@ pub fn run() -> Result<(), String> {
     let packages = ["--package", "sinew-cli", "--package", "sinew", "--package", "sinew-live"];
     let features = ["--no-default-features", "--features", "sinew-cli/session,sinew/session"];
     command::run(command::cargo(&root, &["build"]).args(packages).args(features).args(programs))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from).join("debug");
+    let target = repository::target().join("debug");
     let folder = std::env::temp_dir().join(format!("sinew-hosts-{}", std::process::id()));
     fs::create_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let done = Session { hosts: &hosts, target: &target, folder: &folder, scene: &root.join(SCENE) }.run();

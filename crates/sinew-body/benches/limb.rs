@@ -8,7 +8,7 @@
 //! With ozz-animation's two-bone job (single precision, the swivel given, no limits; timed on the same machine when idle) as 1: `direct` 1.9, `searched`
 //! 3.2 (arm) and 4.5 (leg), `turned` 8.5 and 6.7, `outside` 15.
 
-#[path = "../tests/all/limb_random.rs"]
+#[path = "../src/humanoid/limb/limb_random.rs"]
 mod limb_random;
 
 use std::hint::black_box;

@@ -18,6 +18,8 @@ mod respond;
 mod run;
 #[cfg(feature = "session")]
 mod serve;
+#[cfg(not(feature = "session"))]
+mod without_session;
 
 use clap::{Parser, Subcommand};
 use number::within;
@@ -57,10 +59,12 @@ enum Command {
     /// Join a session of `sinew serve`: as an actor, as its operator, or to watch.
     #[cfg(feature = "session")]
     Join(join::Join),
-    /// Run a scene's Python in a process of its own; `sinew` starts it itself.
-    #[cfg(feature = "python")]
-    #[command(hide = true)]
-    ScriptHost,
+    /// Run a scene for actors on several machines; not in this build.
+    #[cfg(not(feature = "session"))]
+    Serve(without_session::WithoutSession),
+    /// Join a scene that `sinew serve` runs; not in this build.
+    #[cfg(not(feature = "session"))]
+    Join(without_session::WithoutSession),
 }
 
 /// Options for reading a motion file.
@@ -111,8 +115,8 @@ fn main() -> ExitCode {
         Command::Serve(command) => command.run(),
         #[cfg(feature = "session")]
         Command::Join(command) => command.run(),
-        #[cfg(feature = "python")]
-        Command::ScriptHost => sinew_script::host::main(),
+        #[cfg(not(feature = "session"))]
+        Command::Serve(command) | Command::Join(command) => command.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -7,7 +7,7 @@ use crate::output;
 use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
 use sinew::jobs::run::{Ran, RunJob, replay, run, sheet};
-use sinew::script::{Limits, ScriptHost};
+use sinew::script::ScriptHost;
 use sinew::stage::{Observer, Recording, Scene, Take};
 use std::path::PathBuf;
 
@@ -91,7 +91,7 @@ impl Run {
         let mut live = self.live.open(&scene)?;
         let keeps_time = self.real_time || live.keeps_time();
         let presses = self.press.clone();
-        let job = RunJob { for_secs: self.for_secs, host: script_host(), presses, threads, real_time: keeps_time };
+        let job = RunJob { for_secs: self.for_secs, host: ScriptHost::find(), presses, threads, real_time: keeps_time };
         let mut interactive = keeps_time.then(|| Interactive::begin(&scene));
         let mut progress = Progress::of(job.steps(&scene)?);
         let beside: &mut dyn Observer = match &mut interactive {
@@ -116,7 +116,7 @@ impl Replay {
         self.out.check([&self.take].into_iter(), std::iter::empty())?;
         let take = Take::open(&self.take)?;
         let folder = self.take.parent();
-        let ran = replay(&take, &self.set, folder, script_host(), &mut [&mut Progress::of(take.steps)])?;
+        let ran = replay(&take, &self.set, folder, ScriptHost::find(), &mut [&mut Progress::of(take.steps)])?;
         let mut scene = take.to_scene(folder)?;
         for (path, value) in &self.set {
             scene.set(path, value)?;
@@ -225,13 +225,6 @@ impl Out {
         lines.extend(self.files.words(take.into_iter()));
         output::say(&lines.join("\n"))
     }
-}
-
-/// This program itself runs Python controllers, in a process of their own; one that was built without Python refuses them.
-pub(crate) fn script_host() -> Option<ScriptHost> {
-    let program = std::env::current_exe().ok()?;
-    let args = vec!["script-host".to_owned()];
-    cfg!(feature = "python").then(|| ScriptHost { program, args, limits: Limits::default() })
 }
 
 /// The first step at which intermediate hashes differ.

@@ -2,10 +2,11 @@
 
 use crate::interactive::Interactive;
 use crate::output;
-use crate::run::{Out, assignment, script_host};
+use crate::run::{Out, assignment};
 use anyhow::{Context, Result};
 use sinew::jobs::session::{ServeJob, serve};
 use sinew::live::session::{Role, SceneManifest, Server, ServerSettings, limits};
+use sinew::script::ScriptHost;
 use sinew::stage::Scene;
 use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
@@ -64,7 +65,7 @@ impl Serve {
         server.stop_on_interrupt();
         let job = ServeJob {
             for_secs: self.for_secs,
-            host: script_host(),
+            host: ScriptHost::find(),
             keeps_take: self.take.is_some(),
             keeps_motion: self.out.needs_motion(),
         };

@@ -5,10 +5,10 @@
 //! process with little memory and no files, and the stage talks to it in whole steps: a [`Snapshot`] goes in, [`Command`]s
 //! come out. A script that does not come back is killed, and the stage goes on.
 //!
-//! Two halves live here. The *client* ([`Script`]) starts the child and speaks to it; it is always compiled and knows no
-//! Python. The *host* (`host`, behind the feature of that name) is what the child runs: RustPython and the words that a
-//! script can say. The feature is off by default, because RustPython brings an LGPL-3.0 library (malachite) along, which a
-//! program may want to link but a library should not force on anybody. The Python words are listed in `docs/python.md`.
+//! [`Script`] starts the child and speaks to it; it knows no Python. What the child runs is the program `sinew-script-host`, a
+//! package of its own: RustPython and the words that a script can say. RustPython takes as long to build as all the rest, and
+//! brings an LGPL-3.0 library (malachite) along, which a library should not force on anybody. [`ScriptHost::find`] looks for the
+//! program. The Python words are listed in `docs/python.md`.
 //!
 //! ```
 //! use sinew_script::{Limits, Script, ScriptHost, StartInfo};
@@ -26,12 +26,10 @@
 //! [`Command`]: sinew_control::Command
 
 mod error;
-#[cfg(feature = "host")]
-pub mod host;
 mod limits;
 mod names;
 mod process;
-mod protocol;
+pub mod protocol;
 mod script;
 mod snapshot;
 mod state;

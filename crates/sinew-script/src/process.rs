@@ -1,6 +1,7 @@
 //! The child process and the protocol with it. Every wait has a timeout.
 
 use crate::protocol::{self, MAX_REPLY};
+use crate::script::BUILD_IT;
 use std::path::Path;
 use std::time::Duration;
 
@@ -37,6 +38,7 @@ impl Process {
             let child = Command::new(program)
                 .args(arguments)
                 .env_clear()
+                .env(protocol::VERSION_VARIABLE, protocol::VERSION.to_string())
                 .stdin(Stdio::from(input))
                 .stdout(Stdio::from(OwnedFd::from(theirs)))
                 .stderr(Stdio::null())
@@ -106,6 +108,9 @@ impl Process {
                         (Some(6), _) => "its process gave up, most likely for want of memory".to_owned(),
                         (Some(11), _) => "its process crashed, most likely by deep nesting".to_owned(),
                         (Some(signal), _) => format!("its process was ended by signal {signal}"),
+                        (None, Some(code)) if code == i32::from(protocol::WRONG_VERSION) => {
+                            format!("it is of another version than this program; {BUILD_IT}")
+                        }
                         (None, Some(code)) => format!("its process ended by itself with code {code}"),
                         (None, None) => "its process ended by itself".to_owned(),
                     };

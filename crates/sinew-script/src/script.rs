@@ -5,18 +5,47 @@ use crate::protocol::{self, MAX_REQUEST, MAX_SOURCE, Reply, Request};
 use crate::state::ScriptState;
 use crate::{Limits, ScriptError, Snapshot, StartInfo};
 use sinew_control::Command;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
+
+/// What brings the host program there, as an error's remedy.
+pub(crate) const BUILD_IT: &str = "`cargo build --release -p sinew-script-host` in Sinew's repository puts it beside a release build of `sinew` (without \
+     --release, beside a debug build), `cargo install --path crates/sinew-script-host` into the PATH";
 
 /// How the child is started and limited.
 #[derive(Clone, Debug)]
 pub struct ScriptHost {
-    /// A program that calls `sinew_script::host::main`; for `sinew`, itself.
+    /// The program `sinew-script-host`, of the same version as this library.
     pub program: PathBuf,
-    /// Its arguments; for `sinew`, `script-host`.
+    /// Its arguments; it needs none.
     pub args: Vec<String>,
     /// How much the script may use.
     pub limits: Limits,
+}
+
+impl ScriptHost {
+    /// The host program beside the running program, else in a folder of `PATH`; `None` when it is in neither. With the default
+    /// [`Limits`].
+    ///
+    /// ```
+    /// // Controllers are refused with [`ScriptHost::missing`] where it is not built.
+    /// let host = sinew_script::ScriptHost::find();
+    /// assert!(host.is_none_or(|host| host.program.is_file()));
+    /// ```
+    pub fn find() -> Option<ScriptHost> {
+        let own = std::env::current_exe().ok();
+        let beside = own.as_deref().and_then(Path::parent).map(Path::to_owned);
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let name = format!("sinew-script-host{}", std::env::consts::EXE_SUFFIX);
+        let mut places = beside.into_iter().chain(std::env::split_paths(&path)).map(|folder| folder.join(&name));
+        let program = places.find(|program| program.is_file())?;
+        Some(ScriptHost { program, args: Vec::new(), limits: Limits::default() })
+    }
+
+    /// Why a stage without a host refuses a controller, and what to do.
+    pub fn missing() -> String {
+        format!("Python controllers run in the program sinew-script-host, which is not there; {BUILD_IT}")
+    }
 }
 
 /// The outcome of a step.

@@ -5,7 +5,7 @@ use crate::event::{Cause, Effect};
 use crate::scene::JointKind;
 use crate::script_snapshot::{names, snapshot};
 use sinew_control::{Action, Command, OrderError, OrderErrorKind};
-use sinew_script::{Script, StartInfo};
+use sinew_script::{Script, ScriptHost, StartInfo};
 use sinew_world::{CharacterId, PropId};
 
 /// What a controller runs.
@@ -44,7 +44,7 @@ impl Stage {
             seed: self.scene.stage.seed,
             names: names(&self.scene, &self.cast),
         };
-        let host = self.host.clone().ok_or_else(|| failed("this program runs no Python controllers".to_owned()))?;
+        let host = self.host.clone().ok_or_else(|| failed(ScriptHost::missing()))?;
         let script = Script::start(host, &info).map_err(|error| failed(error.to_string()))?;
         Ok(Running { name: name.to_owned(), script })
     }

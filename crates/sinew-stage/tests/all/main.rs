@@ -4,6 +4,7 @@ mod edit;
 mod hostile;
 mod live;
 mod orders;
+mod performance;
 mod runner;
 mod sample_walk;
 mod scene_errors;
@@ -13,3 +14,8 @@ mod schema;
 mod stage;
 mod takes;
 mod timeline;
+
+/// Scenes here have no controllers.
+fn host() -> Option<sinew_script::ScriptHost> {
+    None
+}

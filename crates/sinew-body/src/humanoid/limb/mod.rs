@@ -174,9 +174,8 @@ impl LimbGoal {
     }
 }
 
-// The generator of the integration tests: its `sinew_body` is this crate, see `lib.rs`.
+// Integration tests and a benchmark use it too: its `sinew_body` is this crate, see `lib.rs`.
 #[cfg(test)]
-#[path = "../../../tests/all/limb_random.rs"]
 mod limb_random;
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! A session for tests: a stage on its own thread, and clients.
 #![allow(dead_code, reason = "not every test needs all of it")]
 
+mod scene;
+
+pub use scene::SCENE;
 use sinew_live::session::{
     Client, Role, SceneManifest, Server, ServerCounts, ServerSettings, SessionError, SessionObserver, Token,
 };
@@ -10,43 +13,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
-
-/// Two who hold on to each other, a performer, and a ball on the floor.
-pub const SCENE: &str = r#"
-format = 1
-[characters.red]
-position_m = [0, 0, 0]
-[characters.blue]
-position_m = [0, 0, 1.2]
-facing_deg = 180
-[characters.green]
-position_m = [3, 0, 0]
-source = { live = {} }
-tracker = "kinematic"
-[props.ball]
-ball_radius_m = 0.1
-mass_kg = 1
-position_m = [1, 0.5, 0]
-[[at]]
-time_secs = 0
-character = "red"
-do = "attach"
-link = "rightHand"
-object = "blue.leftHand"
-soft = true
-[[keys]]
-key = "p"
-character = "red"
-do = "push"
-on = "rightHand"
-force_n = [0, 0, -150]
-for_secs = 0.2
-[[keys]]
-key = "b"
-do = "place"
-object = "ball"
-velocity_m_s = [0, 2, 0]
-"#;
 
 /// A session with its stage on a thread of its own.
 pub struct ServerState {

@@ -1,0 +1,11 @@
+//! Every shipped scene with a controller runs, gives the same bits as ever, and replays to them.
+
+use crate::golden::scenes;
+
+scenes! {
+    true:
+    dunk "dunk"
+    glider "glider"
+    reach_grasp "reach_grasp"
+    stapler "stapler"
+}
