@@ -16,7 +16,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use glam::{DQuat, DVec3};
 use limb_random::Random;
-use sinew_body::humanoid::{Body, Limb, LimbGoal, Limit, exp, solve_limb, solve_limb_turned};
+use sinew_body::humanoid::{Body, Limb, LimbGoal, exp, solve_limb, solve_limb_turned};
 
 const CASES: usize = 64;
 

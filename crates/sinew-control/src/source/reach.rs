@@ -56,6 +56,7 @@ pub struct ReachSource {
 }
 
 /// Events of a reach with effects outside it.
+#[expect(clippy::large_enum_variant, reason = "one for a step; a box would allocate during a run")]
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum ReachStep {
     Nothing,

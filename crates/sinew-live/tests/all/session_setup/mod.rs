@@ -1,4 +1,5 @@
 //! A session for tests: a stage on its own thread, and clients.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![allow(dead_code, reason = "not every test needs all of it")]
 
 mod scene;

@@ -1,5 +1,5 @@
 //! What the tests of the text formats share.
-#![allow(dead_code, reason = "each test file uses a part")]
+#![allow(dead_code, clippy::unwrap_used, reason = "each test file uses a part; a test that cannot go on fails")]
 
 use sinew_motion::formats::{Parsed, Source, WriteJob, amc, bvh};
 use sinew_motion::{Clip, Limits, SourceSpace};
