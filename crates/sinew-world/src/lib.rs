@@ -36,6 +36,7 @@ mod engine;
 mod external_force;
 mod extra_shape;
 mod frame;
+pub mod frame_bytes;
 mod id;
 mod joint;
 mod nearest;

@@ -6,6 +6,7 @@ mod contacts;
 mod determinism;
 mod falls;
 mod flight;
+mod frame_bytes;
 mod holds;
 mod hostile;
 mod kept;
