@@ -1,4 +1,5 @@
 //! Frames as bytes: all bits arrive, and any bytes may come.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use super::common::{Dice, adult, spec, standing};
 use glam::{DQuat, DVec3};

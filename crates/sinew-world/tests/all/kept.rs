@@ -1,4 +1,5 @@
 //! Worlds that are kept and put back, and things that come and go.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use super::common;
 use common::{Dice, adult, hold, lifted, odd_pose, spec, standing};
