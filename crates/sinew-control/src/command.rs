@@ -6,6 +6,7 @@
 
 use crate::ReachOrder;
 use crate::perform::PerformerSample;
+use crate::source::SourceSpec;
 use crate::tracker::{KdDamping, KdPreset};
 use serde::{Deserialize, Serialize};
 
@@ -321,6 +322,12 @@ pub enum Action {
     Live {
         /// On or off.
         on: bool,
+    },
+    /// Follow another source of its own from now on, within half a second: a pose, a graph, a clip, or another kind without `live` and
+    /// `reach`. Clips are among the scene's files.
+    Source {
+        /// As in a character's table.
+        source: Box<SourceSpec>,
     },
     /// Reach for something with arms, spine, head and legs, from whatever pose the character is in.
     Reach(ReachOrder),

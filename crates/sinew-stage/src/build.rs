@@ -5,16 +5,16 @@ use crate::actor::Actor;
 use crate::cast::Cast;
 use crate::event::{Cause, Effect};
 use crate::heading::heading;
-use crate::motion_source::{self, Play};
-use crate::scene::{CharacterSpec, RopeSpec, Scene, SourceSpec};
+use crate::scene::{CharacterSpec, RopeSpec, Scene};
+use crate::source_context::{Context, cut};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose, exp};
 use sinew_control::graph::{Graph, Touchable};
 use sinew_control::perform::LiveSource;
 use sinew_control::pose::{KeyPose, STAND, resolve_poses};
-use sinew_control::source::{ClipSource, Performer, PoseBook, Source};
+use sinew_control::source::{Performer, PoseBook};
 use sinew_control::tracker::{Gains, JointGain, TrackerKind};
-use sinew_control::{Layer, PoseSpec};
+use sinew_control::{Layer, PoseSpec, Root, Wanted};
 use sinew_world::{Entity, PropJointKind, PropJointSpec, Surface, World, hips_over_soles_m, outboard_inertias};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -51,12 +51,6 @@ pub struct StageError {
 
 use StageErrorKind as Kind;
 
-/// What reading a character's body gives.
-struct Cut {
-    body: Body,
-    motion: Option<ClipSource>,
-}
-
 pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<Vec<Actor>, StageError> {
     let wrong = |kind, place: String, problem: String| {
         let file = scene.file_name().to_owned();
@@ -83,9 +77,27 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         let outboard = outboard_inertias(&cut.body);
         let springs = Gains::of(&cut.body, &outboard, &joint_gains(spec), world.settings().gravity_m_s2);
         let pose = first_pose(spec, &poses);
-        let start = match &cut.motion {
-            Some(motion) => motion.pose_at(0.0),
-            None => placed(spec, &cut.body, poses.get(pose).unwrap_or(&KeyPose::STAND)),
+        let book = Arc::new(PoseBook { poses, graphs });
+        let step_secs = world.settings().step_secs();
+        let context = Context {
+            scene,
+            spec,
+            tracker: spec.tracker,
+            book: &book,
+            first: pose,
+            step_secs,
+            clips: &cut.clips,
+            running: None,
+        };
+        let own = spec.source.as_ref().map(|source| source.build(&context)).transpose();
+        let own = own.map_err(|error| wrong(Kind::Clip, place(), error.to_string()))?.flatten();
+        let start = match own.as_ref().filter(|own| own.root() == Root::Placed) {
+            Some(own) => {
+                let mut wanted = Wanted::STANDING;
+                own.wanted(0.0, &mut wanted);
+                wanted.pose
+            }
+            None => placed(spec, &cut.body, book.poses.get(pose).unwrap_or(&KeyPose::STAND)),
         };
         let surface = Surface { friction: spec.friction.unwrap_or(Surface::BODY.friction), ..Surface::BODY };
         let in_world = sinew_world::CharacterSpec {
@@ -98,11 +110,9 @@ pub(crate) fn populate(scene: &Scene, cast: &Cast, world: &mut World) -> Result<
         if spec.spin_rad_s != [0.0; 3] {
             world.spin_character(id, spec.spin_rad_s.into());
         }
-        let step_secs = world.settings().step_secs();
-        let book = Arc::new(PoseBook { poses, graphs });
-        let mut actor = Actor::new(id, &cut.body, book, pose, &start, springs, step_secs);
-        if let Some(motion) = cut.motion {
-            actor.sources.follow(Box::new(motion));
+        let mut actor = Actor::new(id, &cut.body, Arc::clone(&book), pose, &start, springs, step_secs);
+        if let Some(own) = own {
+            actor.sources.follow(own);
         }
         if let Some(source) = &spec.source
             && let Some(live) = &source.live
@@ -206,15 +216,6 @@ pub(crate) fn begin(stage: &mut Stage) -> Result<(), StageError> {
         for layer in [Layer::Poses, Layer::Scripts, Layer::Reflexes] {
             actor.set_layer(layer, spec.layers.contains(&layer));
         }
-        match &spec.source {
-            Some(SourceSpec { pose: Some(pose), .. }) => {
-                actor.sources.aim(pose).map_err(|error| wrong(error.to_string()))?;
-            }
-            Some(SourceSpec { graph: Some(graph), state, .. }) => {
-                actor.sources.start_graph(graph, state.as_deref()).map_err(|error| wrong(error.to_string()))?;
-            }
-            _ => {}
-        }
         if spec.tracker != TrackerKind::Pd {
             stage.set_tracker(id, spec.tracker).map_err(wrong)?;
         }
@@ -254,47 +255,9 @@ pub(crate) fn bodies(scene: &Scene) -> Result<Vec<Body>, StageError> {
     scene.characters.iter().map(body).collect()
 }
 
-/// A character's body, and its clip if it plays one.
-fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
-    let source = spec.source.as_ref();
-    let played = source.and_then(|source| source.clip.as_ref());
-    let Some(skeleton) = spec.clip.as_ref().or(played) else {
-        return Ok(Cut { body: Body::standard(spec.mass_kg, spec.height_m.unwrap_or(1.7)), motion: None });
-    };
-    let file = motion_source::read(scene, skeleton)?;
-    let reduction = motion_source::reduction(&file, spec)?;
-    let mut body = reduction.body().clone();
-    let Some(played) = played else { return Ok(Cut { body, motion: None }) };
-    let (other, other_reduction);
-    let (file, reduction) = if played == skeleton {
-        (&file, &reduction)
-    } else {
-        other = motion_source::read(scene, played)?;
-        other_reduction = motion_source::reduction(&other, spec)?;
-        (&other, &other_reduction)
-    };
-    let motion = motion_source::clip_source(
-        file,
-        reduction,
-        spec,
-        &Play {
-            hz: f64::from(scene.stage.motion_hz),
-            start_secs: source.and_then(|source| source.start_secs).unwrap_or(0.0),
-            repeats: source.and_then(|source| source.repeat).unwrap_or(true),
-            until_secs: scene.stage.duration_secs,
-            is_filtered: spec.tracker == TrackerKind::Response,
-            stands_on_floor: spec.tracker == TrackerKind::Kd,
-        },
-    )?;
-    for pose in motion.motion().unwrap_or_default() {
-        body.widen_limits(pose);
-    }
-    Ok(Cut { body, motion: Some(motion) })
-}
-
 /// The pose that a character has at the start.
 fn first_pose<'a>(spec: &'a CharacterSpec, poses: &BTreeMap<String, KeyPose>) -> &'a str {
-    let source = spec.source.as_ref().and_then(|source| source.pose.as_deref());
+    let source = spec.source.as_ref().and_then(|source| source.pose.as_ref()).map(|pose| pose.0.as_str());
     let pose = spec.pose.as_deref().or(source).unwrap_or(STAND);
     if poses.contains_key(pose) { pose } else { STAND }
 }

@@ -160,8 +160,8 @@ fn follow_character(spec: &CharacterSpec, key: &str, rest: &[&str]) -> Option<Ve
         ("source", ["pose" | "graph" | "state"]) => {
             let source = spec.source.as_ref()?;
             match (&source.pose, &source.graph) {
-                (Some(name), None) => one(Action::Pose { name: name.clone() }),
-                (None, Some(name)) => one(Action::Graph { name: name.clone(), state: source.state.clone() }),
+                (Some(name), None) => one(Action::Pose { name: name.0.clone() }),
+                (None, Some(name)) => one(Action::Graph { name: name.0.clone(), state: source.state.clone() }),
                 _ => None,
             }
         }

@@ -50,6 +50,7 @@ mod sample_walk;
 pub mod scene;
 mod script_snapshot;
 mod scripts;
+mod source_context;
 mod stage;
 mod step;
 mod step_actors;

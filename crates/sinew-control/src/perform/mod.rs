@@ -17,6 +17,7 @@ mod blend;
 mod buffer;
 mod clock;
 mod counters;
+mod live_spec;
 mod numbers;
 mod one_euro;
 mod outlier_filter;
@@ -26,6 +27,7 @@ mod source;
 mod tpose;
 
 pub use counters::PerformCounters;
+pub use live_spec::LiveSpec;
 pub use sample::{BodyProportions, PerformerSample, SampleStatus};
 pub use settings::LiveSettings;
 pub use source::{LiveSource, Presence};

@@ -3,16 +3,20 @@
 mod clip;
 mod hand_over;
 mod key_poses;
+mod kinds;
 mod performer;
 mod reach;
 mod sources;
+mod spec;
 
 pub use clip::ClipSource;
 pub use hand_over::{HAND_OVER_SECS, handed_over};
 pub use key_poses::{KeyPoses, PoseBook};
+pub use kinds::{ClipFile, ClipPlay, GraphName, PoseName};
 pub use performer::{Performer, StreamChange};
 pub use reach::{Aimed, HANDS, HandArrival, ReachArrival, ReachSource};
 pub use sources::{Sources, no_performer};
+pub use spec::{Named, SOURCE_KINDS, SourceContext, SourceFault, SourceKind, SourceSpec};
 
 use crate::graph::Cause;
 use crate::{Root, Wanted};

@@ -1,7 +1,7 @@
 //! The sources of a character, and their precedence.
 
 use super::reach::ReachStep;
-use super::{KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, handed_over};
+use super::{HAND_OVER_SECS, KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, handed_over};
 use crate::{FreeRoot, Root, Wanted};
 use crate::{OrderError, OrderErrorKind};
 use sinew_body::humanoid::{Body, Pose};
@@ -18,6 +18,8 @@ pub struct Sources {
     /// The initial key pose.
     first: String,
     own: Box<dyn Source>,
+    /// What was its own before, and since when it hands over \[s\].
+    before: Option<(Box<dyn Source>, f64)>,
     performer: Option<Performer>,
     reach: Option<ReachSource>,
     /// The root for sources without root motion.
@@ -33,6 +35,7 @@ impl Sources {
             body: body.clone(),
             book,
             first: first.to_owned(),
+            before: None,
             performer: None,
             reach: None,
             root: FreeRoot::at(start, None),
@@ -44,6 +47,25 @@ impl Sources {
     pub fn follow(&mut self, own: Box<dyn Source>) {
         self.own = own;
         self.leave_others();
+    }
+
+    /// As [`follow`](Sources::follow), in the middle of a run: what it followed before hands over from this time of the stage on \[s\].
+    pub fn follow_from(&mut self, own: Box<dyn Source>, now_secs: f64) {
+        let before = std::mem::replace(&mut self.own, own);
+        if !self.is_performed() {
+            self.before = Some((before, now_secs));
+        }
+        self.leave_others();
+    }
+
+    /// The key poses and graphs that it can follow.
+    pub fn book(&self) -> &Arc<PoseBook> {
+        &self.book
+    }
+
+    /// The pose of the book that key poses begin in.
+    pub fn first(&self) -> &str {
+        &self.first
     }
 
     /// The body that it is for.
@@ -176,15 +198,46 @@ impl Sources {
         }
     }
 
-    /// The wanted pose at a time of the stage \[s\]: that of the reach if there is one, which blends to the source
-    /// beside it. This is the one place that decides precedence.
+    /// The wanted pose at a time of the stage \[s\]: that of the reach if there is one, which blends to the source beside it; else
+    /// of the performer that is followed; else of its own source, to which the one before blends. This is the one place that decides
+    /// precedence.
     pub fn wanted(&self, at_secs: f64, wanted: &mut Wanted) {
-        let Some(reach) = &self.reach else { return self.acting().wanted(at_secs, wanted) };
-        let Some(since_secs) = reach.leaving_secs() else { return reach.wanted(at_secs, wanted) };
+        match self.reach.as_ref().map(|reach| (reach, reach.leaving_secs())) {
+            None => self.wanted_without_reach(at_secs, wanted),
+            Some((reach, None)) => reach.wanted(at_secs, wanted),
+            Some((reach, Some(since_secs))) => {
+                let to = |secs: f64, wanted: &mut Wanted| self.wanted_without_reach(secs, wanted);
+                self.hand_over(reach, to, since_secs, at_secs, wanted);
+            }
+        }
+    }
+
+    fn wanted_without_reach(&self, at_secs: f64, wanted: &mut Wanted) {
+        match &self.before {
+            Some((before, since_secs)) if !self.is_performed() => {
+                let to = |secs: f64, wanted: &mut Wanted| self.own.wanted(secs, wanted);
+                self.hand_over(before.as_ref(), to, *since_secs, at_secs, wanted);
+            }
+            _ => self.acting().wanted(at_secs, wanted),
+        }
+    }
+
+    /// What is wanted between two sources.
+    fn hand_over(
+        &self,
+        from: &dyn Source,
+        to: impl Fn(f64, &mut Wanted),
+        since_secs: f64,
+        at_secs: f64,
+        wanted: &mut Wanted,
+    ) {
         let mut pose_at = |secs: f64| {
-            self.acting().wanted(secs, wanted);
+            from.wanted(secs, wanted);
             self.place(wanted);
-            handed_over(&reach.pose_at(secs), &wanted.pose, secs - since_secs)
+            let before = wanted.pose;
+            to(secs, wanted);
+            self.place(wanted);
+            handed_over(&before, &wanted.pose, secs - since_secs)
         };
         let (now, next) = (pose_at(at_secs), pose_at(at_secs + self.step_secs));
         wanted.follow_poses(&now, &next, self.step_secs);
@@ -200,7 +253,8 @@ impl Sources {
 
     /// Whether the wanted pose has root motion.
     pub fn root(&self) -> Root {
-        if self.reach.is_some() { Root::Placed } else { self.acting().root() }
+        let hands_over = self.reach.is_some() || self.before.is_some();
+        if hands_over { Root::Placed } else { self.acting().root() }
     }
 
     /// The whole wanted pose at a time of the stage \[s\].
@@ -281,7 +335,13 @@ impl Sources {
             }
             ReachStep::Over => self.reach = None,
         }
+        if self.before.as_ref().is_some_and(|(_, since_secs)| now_secs - since_secs >= HAND_OVER_SECS) {
+            self.before = None;
+        }
         let moment = Moment { frame, own, body: &self.body, step_secs: self.step_secs, has_poses_layer };
+        if let Some((before, _)) = &mut self.before {
+            before.advance(&moment, events);
+        }
         self.own.advance(&moment, events);
     }
 }

@@ -1,6 +1,7 @@
 //! The trackers by name, and what each of them honours.
 
 use super::{KdTracker, KinematicTracker, Limp, PdTracker, ResponseTracker};
+use crate::{OrderError, OrderErrorKind};
 use serde::Deserialize;
 
 /// How a body follows the wanted pose.
@@ -31,6 +32,35 @@ pub struct Honours {
     pub springs: bool,
 }
 
+/// Something that is asked of a tracker beside following the wanted pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// See [`Honours::gains`].
+    Gains,
+    /// See [`Honours::torques`].
+    Torques,
+    /// See [`Honours::springs`].
+    Springs,
+}
+
+impl Asked {
+    const fn is_in(self, honours: Honours) -> bool {
+        match self {
+            Asked::Gains => honours.gains,
+            Asked::Torques => honours.torques,
+            Asked::Springs => honours.springs,
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Asked::Gains => "has no joint gains",
+            Asked::Torques => "takes no torques from reflexes",
+            Asked::Springs => "does not use the springs of single joints",
+        }
+    }
+}
+
 impl Honours {
     /// The wanted pose alone.
     pub const NOTHING: Honours = Honours { gains: false, torques: false, springs: false };
@@ -55,6 +85,28 @@ impl TrackerKind {
     /// The one of this name.
     pub fn of(name: &str) -> Option<TrackerKind> {
         TrackerKind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Whether such a tracker honours something.
+    ///
+    /// ```
+    /// use sinew_control::OrderErrorKind;
+    /// use sinew_control::tracker::{Asked, TrackerKind};
+    /// let refused = TrackerKind::Kinematic.check(Asked::Gains).unwrap_err();
+    /// assert_eq!(refused.kind(), OrderErrorKind::NotHonoured);
+    /// assert_eq!(refused.to_string(), "the tracker `kinematic` has no joint gains; follow by pd or kd");
+    /// ```
+    ///
+    /// # Errors
+    /// [`OrderErrorKind::NotHonoured`]: what it lacks, and which trackers have it.
+    pub fn check(self, asked: Asked) -> Result<(), OrderError> {
+        if asked.is_in(self.honours()) {
+            return Ok(());
+        }
+        let able = TrackerKind::ALL.into_iter().filter(|kind| asked.is_in(kind.honours())).map(TrackerKind::name);
+        let able = able.collect::<Vec<_>>().join(" or ");
+        let problem = format!("the tracker `{}` {}; follow by {able}", self.name(), asked.words());
+        Err(OrderError::new(OrderErrorKind::NotHonoured, problem))
     }
 
     /// What such a tracker honours, before there is one.

@@ -17,7 +17,7 @@ mod tasks;
 pub use gains::{Gains, JointGain};
 pub use hold::Grip;
 pub use kd::{KdDamping, KdGains, KdPreset, KdSettings, KdTracker, KdWeight};
-pub use kind::{Honours, TrackerKind};
+pub use kind::{Asked, Honours, TrackerKind};
 pub use kinematic::KinematicTracker;
 pub use limp::Limp;
 pub use pd::PdTracker;

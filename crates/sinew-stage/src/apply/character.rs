@@ -16,6 +16,9 @@ const NO_KEY_POSES: &str = "it follows a motion, whose limbs have no IK; give it
 impl Stage {
     pub(super) fn apply_to_character(&mut self, id: CharacterId, order: &O) -> Outcome {
         let back = |order: O| Undo::Orders(vec![to_character(id, order)]);
+        if let Some(asked) = order.asks() {
+            self.actors[id.slot()].tracker().kind().check(asked)?;
+        }
         let done = match order {
             O::Pose { name } => {
                 let before = self.source_order(id);
@@ -104,6 +107,11 @@ impl Stage {
             O::Live { on } => {
                 self.actors[id.slot()].sources.follow_performer(*on)?;
                 (E::Live { on: *on }, back(O::Live { on: !*on }))
+            }
+            O::Source(source) => {
+                let before = self.source_order(id);
+                self.follow_source(id, source)?;
+                (E::Source { kind: source.kind() }, before.map_or(Undo::Impossible, back))
             }
             O::Say { text } => (E::Says { text: text.clone() }, Undo::Impossible),
         };

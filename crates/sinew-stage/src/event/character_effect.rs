@@ -193,6 +193,11 @@ pub enum CharacterEffect {
     },
     /// It follows by another tracker.
     Tracker(TrackerKind),
+    /// It follows another source of its own.
+    Source {
+        /// The kind.
+        kind: &'static str,
+    },
     /// It follows its performer, or no longer.
     Live {
         /// On or off.
@@ -292,6 +297,7 @@ impl CharacterEffect {
             E::KdGainsRestored => write!(f, "{who}: gains are as before"),
             E::Pins { on } => write!(f, "{who}: kinematic forces are {}", state(*on)),
             E::Tracker(kind) => write!(f, "{who} follows by {}", kind.name()),
+            E::Source { kind } => write!(f, "{who} follows a {kind}"),
             E::Live { on: true } => write!(f, "{who} follows its performer"),
             E::Live { on: false } => write!(f, "{who} follows its performer no longer"),
             E::Performer { presence, replaces_understudy } => {

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::perform::PerformerSample;
-use sinew_control::tracker::{KdDamping, KdPreset, TrackerKind};
+use sinew_control::source::SourceSpec;
+use sinew_control::tracker::{Asked, KdDamping, KdPreset, TrackerKind};
 use sinew_control::{Layer, ReachOrder};
 use sinew_world::Entity;
 use std::fmt;
@@ -196,6 +197,8 @@ pub enum CharacterOrder {
         /// On or off.
         on: bool,
     },
+    /// Follow another source of its own; the one before hands over.
+    Source(Box<SourceSpec>),
     /// Reach with the whole body.
     Reach(ReachOrder),
     /// Let go of a reach.
@@ -260,6 +263,17 @@ impl fmt::Display for ShapeChoice {
 }
 
 impl CharacterOrder {
+    /// What it asks of the character's tracker beside following the wanted pose; `None` for nothing.
+    pub(crate) const fn asks(&self) -> Option<Asked> {
+        match self {
+            CharacterOrder::Gain { .. } | CharacterOrder::Layer { layer: Layer::Poses, on: false } => {
+                Some(Asked::Gains)
+            }
+            CharacterOrder::Reflex { on: true, .. } => Some(Asked::Torques),
+            _ => None,
+        }
+    }
+
     /// Whether two orders set the same thing of the character.
     pub(super) fn sets_the_same(&self, other: &CharacterOrder) -> bool {
         use CharacterOrder as O;

@@ -31,6 +31,7 @@ mod undo;
 
 pub use character_order::{CharacterOrder, KdChange, ShapeChoice};
 pub use resolve::Resolver;
+pub(crate) use resolve::one_of;
 pub(crate) use resolve_character::FADE_SECS;
 pub use stage_order::StageOrder;
 pub use undo::Undo;

@@ -123,7 +123,7 @@ pub(super) fn not_found<'a>(what: &str, name: &str, names: impl Iterator<Item = 
 }
 
 /// The name, if it is one of these.
-pub(super) fn one_of<'a>(
+pub(crate) fn one_of<'a>(
     what: &str,
     wanted: &str,
     names: impl Iterator<Item = &'a str> + Clone,

@@ -5,6 +5,7 @@ use super::{CharacterOrder, KdChange, ShapeChoice};
 use crate::scene::REFLEXES;
 use glam::DVec3;
 use sinew_body::humanoid::{Limb, Node};
+use sinew_control::source::SourceSpec;
 use sinew_control::tracker::TrackerKind;
 use sinew_control::{Action, OrderError, OrderErrorKind as Kind, range};
 use sinew_world::CharacterId;
@@ -103,6 +104,10 @@ impl Resolver<'_> {
                 self.performer(id)?;
                 O::Live { on: *on }
             }
+            Action::Source { source } => {
+                self.check_source(id, source)?;
+                O::Source(source.clone())
+            }
             Action::Reach(order) => {
                 order.check()?;
                 order.object.iter().chain(&order.avoid).try_for_each(|name| self.prop(name).map(drop))?;
@@ -143,6 +148,20 @@ impl Resolver<'_> {
                 O::Pins { on: *on, fade_secs: fade(*fade_secs)?, for_secs: lasts(*for_secs)? }
             }
             _ => return Err(OrderError::new(Kind::WrongTarget, "this is no command to the tracker kd")),
+        })
+    }
+
+    /// Whether a character can follow a source in the middle of a run.
+    fn check_source(&self, id: CharacterId, source: &SourceSpec) -> Result<(), OrderError> {
+        if source.live.is_some() || source.reach.is_some() {
+            let problem = "live and reach have commands of their own: do = \"live\", do = \"reach\"";
+            return Err(OrderError::new(Kind::Contradiction, problem));
+        }
+        let spec = self.spec(id)?;
+        source.check(&|named| self.scene.exists(spec, named)).map_err(|fault| {
+            let fault = fault.within("source");
+            let place = fault.keys.join(".");
+            fault.error.map_problem(|problem| format!("{place}: {problem}"))
         })
     }
 

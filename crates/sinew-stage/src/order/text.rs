@@ -72,6 +72,7 @@ fn character_action(order: &CharacterOrder, cast: &Cast) -> Action {
         O::Tracker(kind) => Action::Tracker { name: kind.name().to_owned() },
         O::Perform(sample) => Action::Perform { sample },
         O::Live { on } => Action::Live { on },
+        O::Source(source) => Action::Source { source },
         O::Reach(order) => Action::Reach(order),
         O::ReachEnd => Action::ReachEnd {},
         O::Say { text } => Action::Say { text },

@@ -2,10 +2,11 @@
 
 use super::error::{Fault, known, shortened};
 use super::range::{colour, count, name as known_name, number, optional, rgb, vector};
-use super::{KdSpec, ResponseSpec, SourceSpec};
+use super::{KdSpec, ResponseSpec};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use sinew_body::humanoid::Node;
+use sinew_control::source::SourceSpec;
 use sinew_control::tracker::TrackerKind;
 use sinew_control::{Layer, range};
 use sinew_motion::Part;
@@ -177,9 +178,6 @@ impl CharacterSpec {
         }
         self.kd.check(name)?;
         self.response.check(name)?;
-        if let Some(source) = &self.source {
-            source.check(name)?;
-        }
         count(&at("reflexes"), self.reflexes.len(), REFLEXES.len())?;
         for reflex in &self.reflexes {
             known_name(&at("reflexes"), "reflex", reflex, REFLEXES)?;

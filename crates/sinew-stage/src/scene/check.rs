@@ -2,9 +2,10 @@
 
 use super::error::{Fault, known, shortened};
 use super::range::{count, name, new_name, number, optional};
-use super::{SCENE_FORMAT, SceneErrorKind, SceneSpec, Touchable};
+use super::{CharacterSpec, SCENE_FORMAT, SceneErrorKind, SceneSpec, Touchable};
 use crate::Cast;
-use crate::order::Resolver;
+use crate::order::{Resolver, one_of};
+use sinew_control::source::Named;
 use sinew_control::{Command, GraphSpec, OrderError, OrderErrorKind, range};
 
 /// The built-in pose: standing, arms hanging.
@@ -65,7 +66,8 @@ impl SceneSpec {
         }
         self.check_characters()?;
         self.check_poses()?;
-        self.check_commands()
+        self.check_commands()?;
+        self.check_honoured()
     }
 
     fn check_counts(&self) -> Result<(), Fault> {
@@ -114,16 +116,10 @@ impl SceneSpec {
                 name(&at("controller"), "controller", controller, self.controllers.keys().map(String::as_str))?;
             }
             let Some(source) = &spec.source else { continue };
-            let at = |key| ["characters", character, "source", key];
-            if let Some(pose) = &source.pose {
-                name(&at("pose"), "pose", pose, self.pose_names())?;
-            }
-            if let Some(graph) = &source.graph {
-                name(&at("graph"), "graph", graph, self.graphs.keys().map(String::as_str))?;
-                if let (Some(state), Some(graph)) = (&source.state, self.graphs.get(graph)) {
-                    name(&at("state"), "state", state, graph.states.keys().map(String::as_str))?;
-                }
-            }
+            source.check(&|named| self.exists(spec, named)).map_err(|fault| {
+                let path = ["characters", character, "source"].map(str::to_owned);
+                Fault::of_order(&[&path[..], &fault.keys].concat(), &fault.error)
+            })?;
         }
         Ok(())
     }
@@ -223,6 +219,24 @@ impl SceneSpec {
             command("keys", index, &binding.command)?;
         }
         Ok(())
+    }
+
+    /// Whether something exists that a source of a character names.
+    ///
+    /// # Errors
+    /// What there is instead.
+    pub(crate) fn exists(&self, character: &CharacterSpec, named: Named) -> Result<(), OrderError> {
+        let graph =
+            |graph| self.graphs.get(graph).into_iter().flat_map(|graph| graph.states.keys().map(String::as_str));
+        match named {
+            Named::Pose(pose) => one_of("pose", pose, self.pose_names()).map(drop),
+            Named::Graph(graph) => one_of("graph", graph, self.graphs.keys().map(String::as_str)).map(drop),
+            Named::State { graph: of, state } => one_of("state", state, graph(of)).map(drop),
+            Named::Part(part) => match character.node(part) {
+                Some(_) => Ok(()),
+                None => Err(OrderError::new(OrderErrorKind::NotFound, character.no_part(part))),
+            },
+        }
     }
 
     /// Resolves the name of something that can have contacts: a prop, a character, a part as `character.part`, or

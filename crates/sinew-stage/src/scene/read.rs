@@ -6,7 +6,8 @@ use super::files::{FileKind, of_kind};
 use super::wording;
 use super::{ControllerSpec, DiskFiles, FileError, Files, HeldFile, SceneError, SceneErrorKind, SceneSpec};
 use sinew_body::humanoid::Node;
-use sinew_control::{OrderError, OrderErrorKind};
+use sinew_control::source::SourceSpec;
+use sinew_control::{Action, OrderError, OrderErrorKind};
 use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
@@ -226,8 +227,15 @@ fn named_files(spec: &SceneSpec) -> Vec<(Vec<String>, String, FileKind, u64)> {
     };
     for (name, character) in &spec.characters {
         add(&["characters", name, "clip"], &character.clip, FileKind::CLIP, MAX_CLIP_BYTES);
-        let clip = character.source.as_ref().and_then(|source| source.clip.clone());
-        add(&["characters", name, "source", "clip"], &clip, FileKind::CLIP, MAX_CLIP_BYTES);
+        for play in character.source.iter().flat_map(SourceSpec::clips) {
+            add(&["characters", name, "source", "clip"], &Some(play.file), FileKind::CLIP, MAX_CLIP_BYTES);
+        }
+    }
+    for (list, _, command) in spec.commands() {
+        let Action::Source { source } = &command.action else { continue };
+        for play in source.clips() {
+            add(&[list], &Some(play.file), FileKind::CLIP, MAX_CLIP_BYTES);
+        }
     }
     for (name, controller) in &spec.controllers {
         add(&["controllers", name, "file"], &controller.file, FileKind::PYTHON, MAX_PYTHON_BYTES as u64);

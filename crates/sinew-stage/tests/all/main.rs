@@ -1,6 +1,7 @@
 //! Everything that `sinew-stage` is held to, as one program.
 
 mod edit;
+mod honours;
 mod hostile;
 mod live;
 mod orders;

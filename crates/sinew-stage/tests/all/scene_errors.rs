@@ -188,7 +188,7 @@ fn every_fault_names_its_line_and_a_remedy() {
         (
             "graph = \"walk\", state = \"a\"",
             "pose = \"guard\", graph = \"walk\"",
-            "line 13: characters.left.source: 2 of pose, graph and clip",
+            "line 13: characters.left.source: pose and graph are stated",
             "keep one",
         ),
         ("text = \"\"\"", "class = \"1x\"\ntext = \"\"\"", "line 32: controllers.Boxer.class", "class ="),

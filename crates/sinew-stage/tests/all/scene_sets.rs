@@ -5,7 +5,7 @@
 use sinew_control::tracker::TrackerKind;
 use sinew_stage::Scene;
 
-const SCENE: &str = "format = 1\n[stage]\npose_files = [\"a.toml\"]\n[characters.left]\nmass_kg = 80\n[[at]]\ntime_secs = 1\n\
+const SCENE: &str = "format = 1\n[stage]\npose_files = [\"a.toml\"]\n[characters.left]\nmass_kg = 80\n[characters.right]\n[[at]]\ntime_secs = 1\n\
                      do = \"say\"\ntext = \"now\"\n[[at]]\ntime_secs = 2\ndo = \"say\"\ntext = \"then\"\n";
 
 fn scene() -> Scene {
@@ -23,12 +23,12 @@ fn a_value_is_changed_added_or_replaced_by_its_path() {
     scene.set("camera.from_deg", "10").unwrap();
     scene.set("at.1.time_secs", "3").unwrap();
     // A word needs no quotes, as a shell takes them away.
-    scene.set("characters.left.tracker", "kinematic").unwrap();
+    scene.set("characters.right.tracker", "kinematic").unwrap();
     scene.set("characters.left.pose", "\"up\"").unwrap();
     let left = &scene.characters["left"];
     assert_eq!((left.mass_kg, left.position_m), (70.5, [1.0, 2.0, 3.0]));
     assert_eq!(left.joints["leftFoot"].frequency_hz, Some(4.0));
-    assert_eq!((left.tracker, left.pose.as_deref()), (TrackerKind::Kinematic, Some("up")));
+    assert_eq!((scene.characters["right"].tracker, left.pose.as_deref()), (TrackerKind::Kinematic, Some("up")));
     assert_eq!((scene.camera.from_deg, scene.at[1].at_secs), (10.0, 3.0));
     assert_eq!(scene.sets().len(), 7);
 }

@@ -1,14 +1,13 @@
 //! A live performer as a character's source.
 
-use super::error::Fault;
-use super::range::number;
+use super::LiveSettings;
+use crate::source::SourceFault;
 use schemars::JsonSchema;
-use serde::Deserialize;
-use sinew_control::perform::LiveSettings;
+use serde::{Deserialize, Serialize};
 
 /// Port and stream settings of a performer. Without a port its samples arrive as commands alone: from a session or a
 /// program.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LiveSpec {
     /// UDP port for VMC; 39539 is usual.
@@ -47,19 +46,28 @@ impl LiveSpec {
         }
     }
 
-    pub(super) fn check(&self, name: &str) -> Result<(), Fault> {
-        let at = |key| ["characters", name, "source", "live", key];
+    /// Whether numbers are in range.
+    ///
+    /// # Errors
+    /// What is wrong, at which key of the table.
+    pub fn check(&self) -> Result<(), SourceFault> {
         if self.port == Some(0) || self.raw_port == Some(0) {
             let key = if self.port == Some(0) { "port" } else { "raw_port" };
-            return Err(Fault::at(&at(key), "nobody can send to port 0; write one such as 39539"));
+            return Err(SourceFault::at(key, "nobody can send to port 0; write one such as 39539"));
         }
         if self.port.is_some() && self.raw_port.is_some() {
-            return Err(Fault::at(&at("raw_port"), "port is stated too; a performer comes by one way, keep one"));
+            let problem = "port is stated too; a performer comes by one way, keep one";
+            return Err(SourceFault::at("raw_port", problem));
         }
-        number(&at("hold_secs"), self.hold_secs, 0.0..=3600.0, "seconds are expected")?;
-        number(&at("relax_secs"), self.relax_secs, 0.0..=60.0, "seconds are expected")?;
-        number(&at("relaxed_gain"), self.relaxed_gain, 0.0..=1.0, "1 keeps the body as firm as ever")?;
-        number(&at("smoothing_hz"), self.smoothing_hz, 0.0..=1000.0, "6 is usual, 0 switches the filter off")?;
-        number(&at("most_jitter_secs"), self.most_jitter_secs, 0.0..=0.3, "seconds are expected")
+        for (key, value, most, hint) in [
+            ("hold_secs", self.hold_secs, 3600.0, "seconds are expected"),
+            ("relax_secs", self.relax_secs, 60.0, "seconds are expected"),
+            ("relaxed_gain", self.relaxed_gain, 1.0, "1 keeps the body as firm as ever"),
+            ("smoothing_hz", self.smoothing_hz, 1000.0, "6 is usual, 0 switches the filter off"),
+            ("most_jitter_secs", self.most_jitter_secs, 0.3, "seconds are expected"),
+        ] {
+            SourceFault::range(key, value, 0.0..=most, hint)?;
+        }
+        Ok(())
     }
 }

@@ -1,0 +1,125 @@
+//! What sources of a scene are made from: clips on a character's body, its key poses, its names.
+
+use crate::Stage;
+use crate::motion_source::{self, Play};
+use crate::scene::{CharacterSpec, Scene};
+use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_control::source::{ClipPlay, ClipSource, KeyPoses, PoseBook, Source as _, SourceContext, SourceSpec};
+use sinew_control::tracker::TrackerKind;
+use sinew_control::{OrderError, OrderErrorKind};
+use sinew_world::CharacterId;
+use std::sync::Arc;
+
+/// A character's body, and the clips that its source plays.
+pub(crate) struct Cut {
+    pub body: Body,
+    pub clips: Vec<(ClipPlay, ClipSource)>,
+}
+
+/// The body of a character, from a clip's skeleton if it has one, with limits as wide as its clips move.
+pub(crate) fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
+    let plays = spec.source.as_ref().map_or_else(Vec::new, SourceSpec::clips);
+    let Some(skeleton) = spec.clip.as_ref().or(plays.first().map(|play| &play.file)) else {
+        return Ok(Cut { body: Body::standard(spec.mass_kg, spec.height_m.unwrap_or(1.7)), clips: Vec::new() });
+    };
+    let file = motion_source::read(scene, skeleton)?;
+    let reduction = motion_source::reduction(&file, spec)?;
+    let mut body = reduction.body().clone();
+    let mut clips: Vec<(ClipPlay, ClipSource)> = Vec::new();
+    for play in &plays {
+        let how = how(scene, spec.tracker, play);
+        let clip = if play.file == *skeleton {
+            motion_source::clip_source(&file, &reduction, spec, &how)?
+        } else {
+            read_clip(scene, spec, &how, play)?
+        };
+        for pose in clip.motion().unwrap_or_default() {
+            body.widen_limits(pose);
+        }
+        clips.push((play.clone(), clip));
+    }
+    Ok(Cut { body, clips })
+}
+
+fn how(scene: &Scene, tracker: TrackerKind, play: &ClipPlay) -> Play {
+    Play {
+        hz: f64::from(scene.stage.motion_hz),
+        start_secs: play.start_secs,
+        repeats: play.repeats,
+        until_secs: scene.stage.duration_secs,
+        is_filtered: tracker == TrackerKind::Response,
+        stands_on_floor: tracker == TrackerKind::Kd,
+    }
+}
+
+fn read_clip(scene: &Scene, spec: &CharacterSpec, how: &Play, play: &ClipPlay) -> Result<ClipSource, String> {
+    let file = motion_source::read(scene, &play.file)?;
+    let reduction = motion_source::reduction(&file, spec)?;
+    motion_source::clip_source(&file, &reduction, spec, how)
+}
+
+/// A character of a scene, at the start or in the middle of a run.
+pub(crate) struct Context<'a> {
+    pub scene: &'a Scene,
+    pub spec: &'a CharacterSpec,
+    pub tracker: TrackerKind,
+    pub book: &'a Arc<PoseBook>,
+    /// The key pose that it begins in.
+    pub first: &'a str,
+    pub step_secs: f64,
+    /// Clips that are read already.
+    pub clips: &'a [(ClipPlay, ClipSource)],
+    /// In the middle of a run: the stage's time \[s\], the body, and the pose in which a clip is to begin.
+    pub running: Option<(f64, &'a Body, Pose)>,
+}
+
+impl SourceContext for Context<'_> {
+    fn key_poses(&self) -> KeyPoses {
+        KeyPoses::new(Arc::clone(self.book), self.first, self.step_secs)
+    }
+
+    fn clip(&self, play: &ClipPlay) -> Result<ClipSource, OrderError> {
+        let known = self.clips.iter().find(|(known, _)| known == play);
+        let mut clip = match known {
+            Some((_, clip)) => clip.clone(),
+            None => read_clip(self.scene, self.spec, &how(self.scene, self.tracker, play), play)
+                .map_err(|problem| OrderError::new(OrderErrorKind::NotFound, problem))?,
+        };
+        if let Some((now_secs, body, at)) = &self.running {
+            clip.resume(body, 0.0, *now_secs, at);
+        }
+        Ok(clip)
+    }
+
+    fn node(&self, name: &str) -> Option<Node> {
+        self.spec.node(name)
+    }
+
+    fn now_secs(&self) -> f64 {
+        self.running.as_ref().map_or(0.0, |(now_secs, ..)| *now_secs)
+    }
+}
+
+impl Stage {
+    /// Follows another source from now on, from where the body is.
+    pub(crate) fn follow_source(&mut self, id: CharacterId, source: &SourceSpec) -> Result<(), OrderError> {
+        let Some(spec) = self.scene.characters.values().nth(id.slot()) else { return Ok(()) };
+        let frame = self.world.frame();
+        let actor = &self.actors[id.slot()];
+        let context = Context {
+            scene: &self.scene,
+            spec,
+            tracker: actor.tracker().kind(),
+            book: actor.sources.book(),
+            first: actor.sources.first(),
+            step_secs: self.world.settings().step_secs(),
+            clips: &[],
+            running: Some((frame.time_secs, actor.body(), frame.characters[id.slot()].pose())),
+        };
+        let nothing = || OrderError::new(OrderErrorKind::Contradiction, "it states no source of its own");
+        let own = source.build(&context)?.ok_or_else(nothing)?;
+        let now_secs = frame.time_secs;
+        self.actors[id.slot()].sources.follow_from(own, now_secs);
+        Ok(())
+    }
+}
