@@ -1,5 +1,6 @@
 //! Sources of the wanted pose: the [`Source`], its kinds, and [`Sources`], which decides their precedence.
 
+mod blend;
 mod clip;
 mod hand_over;
 mod key_poses;

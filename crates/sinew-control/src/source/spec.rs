@@ -156,6 +156,8 @@ source_kinds! {
     graph: GraphName,
     /// A motion file to play.
     clip: ClipFile,
+    /// Two sources layered with a weight over time.
+    blend: super::blend::BlendSpec,
 }
 
 impl SourceSpec {

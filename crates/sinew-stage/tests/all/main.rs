@@ -1,5 +1,6 @@
 //! Everything that `sinew-stage` is held to, as one program.
 
+mod blend;
 mod edit;
 mod honours;
 mod hostile;

@@ -9,6 +9,7 @@ scenes! {
     false:
     balance "balance"
     balloon "balloon"
+    blend_wave "blend_wave"
     block "block"
     car "car"
     duel "duel"
