@@ -86,7 +86,7 @@ impl SourceContext for Context<'_> {
                 .map_err(|problem| OrderError::new(OrderErrorKind::NotFound, problem))?,
         };
         if let Some((now_secs, body, at)) = &self.running {
-            clip.resume(body, 0.0, *now_secs, at);
+            clip.begin_in(body, *now_secs, at);
         }
         Ok(clip)
     }

@@ -42,6 +42,12 @@ impl ClipSource {
         self.pose_of(self.start_secs + self.own_secs(time_secs))
     }
 
+    /// As [`Source::resume`] from its beginning, but at full pace at once: for a character that another source moves until then.
+    pub fn begin_in(&mut self, body: &Body, now_secs: f64, at: &Pose) {
+        self.resume(body, 0.0, now_secs, at);
+        self.resumed_secs = None;
+    }
+
     /// The clip's time: a resumed clip starts from rest.
     fn own_secs(&self, time_secs: f64) -> f64 {
         let Some(resumed_secs) = self.resumed_secs else { return time_secs };
