@@ -14,7 +14,9 @@ pub enum MovingGoalError {
     #[error("a time of {0} s is out of range; it is 0 to {max:.0}", max = MovingGoal::MAX_SECS)]
     Time(f64),
     /// Waypoints are not in the order of their times.
-    #[error("the times of waypoints must grow from point to point; {0} s does not come after the one before")]
+    #[error(
+        "the times of a moving target's waypoints must grow from point to point; {0} s does not come after the one before"
+    )]
     Order(f64),
 }
 
