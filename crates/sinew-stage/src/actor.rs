@@ -1,6 +1,5 @@
 //! One character on the stage: sources, layers and a tracker.
 
-use crate::scripts::Running;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_control::perform::LiveSource;
 use sinew_control::reflex::{Reflex, Sense};
@@ -11,7 +10,9 @@ use sinew_world::{CharacterId, PropId, World};
 use std::any::Any;
 use std::sync::Arc;
 
-/// A character's control: what it follows, three layers (key poses and graphs, a script, reflexes), and how its body follows.
+/// A character's control: what it follows, three layers (key poses and graphs, a script, reflexes), and how its body follows. A clone
+/// goes on to the same bits.
+#[derive(Clone)]
 pub struct Actor {
     pub(crate) id: CharacterId,
     pub(crate) sources: Sources,
@@ -19,7 +20,6 @@ pub struct Actor {
     wanted: Wanted,
     reflexes: Vec<(Box<dyn Reflex>, bool)>,
     layers: [bool; 3],
-    pub(crate) script: Option<Running>,
     /// The joints' own springs, before any factor.
     springs: Gains,
     /// k_sg, the global gain (Shapiro et al. 2007, EQ3), and a factor for each joint on top \[1\].
@@ -50,7 +50,6 @@ impl Actor {
             wanted: Wanted::STANDING,
             reflexes: Vec::new(),
             layers: [true; 3],
-            script: None,
             springs,
             global_gain: 1.0,
             joint_gain: [1.0; Node::COUNT],

@@ -9,10 +9,12 @@ use sinew_control::OrderError;
 use sinew_control::graph::Touchable;
 use sinew_world::Frame;
 
+#[derive(Clone)]
 pub(crate) struct Reactions {
     list: Vec<Waiting>,
 }
 
+#[derive(Clone)]
 struct Waiting {
     touching: [Touchable; 2],
     line: usize,

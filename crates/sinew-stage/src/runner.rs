@@ -137,6 +137,12 @@ impl Runner {
     /// Without a time line, without such a take, or when it does not go so far; everything is as before then.
     pub fn go_to(&mut self, take: usize, step: u64) -> Result<(), SeekError> {
         let timeline = self.timeline.as_mut().ok_or(SeekError::NoTimeline)?;
+        // The clock starts anew.
+        self.pacer = None;
+        if self.recording.is_none() && self.trace.is_none() {
+            return timeline.go_to(&mut self.stage, take, step);
+        }
+        // Motion and trace from the start must be seen again.
         let mut recording = self.recording.as_ref().map(|_| Recording::new(&self.stage));
         let mut trace = self.trace.as_ref().map(|_| Vec::new());
         let steps_per_frame = self.steps_per_frame;
@@ -144,8 +150,6 @@ impl Runner {
             keep(stage, steps_per_frame, recording.as_mut(), trace.as_mut());
         })?;
         (self.recording, self.trace) = (recording, trace);
-        // The clock starts anew.
-        self.pacer = None;
         Ok(())
     }
 

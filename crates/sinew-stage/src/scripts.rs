@@ -5,14 +5,23 @@ use crate::event::{Cause, Effect};
 use crate::scene::JointKind;
 use crate::script_snapshot::{names, snapshot};
 use sinew_control::{Action, Command, OrderError, OrderErrorKind};
-use sinew_script::{Script, ScriptHost, StartInfo};
+use sinew_script::{Script, ScriptHost, ScriptState, StartInfo};
 use sinew_world::{CharacterId, PropId};
 
 /// What a controller runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Owner {
     Character(CharacterId),
     Prop(PropId),
+}
+
+/// What a snapshot keeps of a controller.
+#[derive(Clone)]
+pub(crate) struct KeptScript {
+    pub owner: Owner,
+    /// Its name in the scene.
+    pub name: String,
+    pub state: ScriptState,
 }
 
 /// A controller that runs a character or a prop.
@@ -25,10 +34,18 @@ pub(crate) struct Running {
 impl Stage {
     /// Starts a controller of the scene for a prop.
     pub(crate) fn start_prop_controller(&mut self, prop: PropId, name: &str) -> Result<(), OrderError> {
-        let own = self.cast.props()[prop.slot()].clone();
-        let running = self.start_script(name, own)?;
-        self.prop_scripts.insert(prop, running);
+        let running = self.start_script(name, self.owner_name(Owner::Prop(prop)))?;
+        self.scripts.insert(Owner::Prop(prop), running);
         Ok(())
+    }
+
+    /// The name of what a controller runs.
+    pub(crate) fn owner_name(&self, owner: Owner) -> String {
+        let name = match owner {
+            Owner::Character(character) => self.cast.characters().get(character.slot()),
+            Owner::Prop(prop) => self.cast.props().get(prop.slot()),
+        };
+        name.cloned().unwrap_or_default()
     }
 
     pub(crate) fn start_script(&self, name: &str, own: String) -> Result<Running, OrderError> {
@@ -50,16 +67,12 @@ impl Stage {
     }
 
     /// Everything that a controller runs: characters, then props.
-    fn owners(&self) -> Vec<Owner> {
-        let characters = self.actors.iter().map(|actor| Owner::Character(actor.id));
-        characters.chain(self.prop_scripts.keys().map(|&prop| Owner::Prop(prop))).collect()
+    pub(crate) fn owners(&self) -> Vec<Owner> {
+        self.scripts.keys().copied().collect()
     }
 
     fn running(&mut self, owner: Owner) -> Option<&mut Running> {
-        match owner {
-            Owner::Character(character) => self.actors.get_mut(character.slot())?.script.as_mut(),
-            Owner::Prop(prop) => self.prop_scripts.get_mut(&prop),
-        }
+        self.scripts.get_mut(&owner)
     }
 
     /// Whether a controller is to be called.
@@ -133,11 +146,16 @@ impl Stage {
                 self.note(Cause::Script { controller: name.clone() }, Effect::ScriptFailed { error });
             }
             if let Some(reason) = outcome.killed {
-                let command = Command::stage(Action::ScriptKilled { name: name.clone(), reason: reason.clone() });
-                self.record.push(crate::take::Stamped { step, command });
-                self.note(Cause::Script { controller: name.clone() }, Effect::ScriptKilled { reason });
+                self.note_kill(step, &name, reason);
             }
         }
+    }
+
+    /// A controller was killed by its limits, which depend on the machine: the take must say when.
+    pub(crate) fn note_kill(&mut self, step: u64, name: &str, reason: String) {
+        let command = Command::stage(Action::ScriptKilled { name: name.to_owned(), reason: reason.clone() });
+        self.record.push(crate::take::Stamped { step, command });
+        self.note(Cause::Script { controller: name.to_owned() }, Effect::ScriptKilled { reason });
     }
 
     /// In a replay a script is stopped where it was stopped then, before it is called.

@@ -11,14 +11,14 @@ use crate::order::{Order, Resolver, ShapeChoice, Undo};
 use crate::reaction::Reactions;
 use crate::run_hash::RunHash;
 use crate::scene::{KeyBinding, Scene};
-use crate::scripts::Running;
+use crate::scripts::{Owner, Running};
 use crate::step::step_of;
 use crate::take::{self, Stamped};
 use crate::timed_effect::TimedEffects;
 use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command, OrderError};
 use sinew_script::ScriptHost;
-use sinew_world::{CharacterId, Frame, PartShape, PropId, PropJointId, World};
+use sinew_world::{CharacterId, Frame, PartShape, PropJointId, World};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -38,22 +38,22 @@ pub struct Stage {
     pub(crate) records: bool,
     /// Kills of scripts that a take prescribes; `None` when scripts are held to time themselves.
     pub(crate) prescribed: Option<Vec<Stamped>>,
-    reactions: Reactions,
+    pub(crate) reactions: Reactions,
     /// Joints of the scene that are cut or broken, as far as that is noted.
     pub(crate) broken: BTreeSet<PropJointId>,
-    /// Controllers of props.
-    pub(crate) prop_scripts: BTreeMap<PropId, Running>,
+    /// Controllers that run: of characters, then of props.
+    pub(crate) scripts: BTreeMap<Owner, Running>,
     /// Commands for the next step, each with whether it is worth undoing.
-    inbox: Vec<(Command, bool)>,
+    pub(crate) inbox: Vec<(Command, bool)>,
     /// What runs of an edited text, when one was given; else what runs is the scene's own.
     pub(crate) running: Option<toml::Table>,
     /// The scene's key bindings, as edited.
     pub(crate) keys: Vec<KeyBinding>,
     /// How commands from outside are taken back, the newest last.
-    history: Vec<Vec<Order>>,
+    pub(crate) history: Vec<Vec<Order>>,
     /// The scene's own commands that are still to come, the next one last.
-    timed: Vec<(u64, usize, Order)>,
-    hash: RunHash,
+    pub(crate) timed: Vec<(u64, usize, Order)>,
+    pub(crate) hash: RunHash,
 }
 
 impl Stage {
@@ -110,7 +110,7 @@ impl Stage {
             prescribed: None,
             reactions,
             broken: BTreeSet::new(),
-            prop_scripts: BTreeMap::new(),
+            scripts: BTreeMap::new(),
             inbox: Vec::new(),
             history: Vec::new(),
             running: None,

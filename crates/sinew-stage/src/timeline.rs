@@ -1,5 +1,6 @@
 //! The time line of a stage that runs: any earlier time again, and what would have happened otherwise.
 
+use crate::snapshots::Snapshots;
 use crate::take::Stamped;
 use crate::{Stage, StageError};
 
@@ -13,7 +14,11 @@ use crate::{Stage, StageError};
 /// own. A command that is given after seeking, before the end of what is known, begins a take of its own as well, in which the
 /// known commands that follow are given again. The takes before stay as they are, and [`Timeline::go_to`] goes back to them.
 ///
-/// Earlier steps are found by running the scene again from its start, so that seeking takes as long as running there did.
+/// It keeps snapshots of the stage, at most [`Timeline::MAX_SNAPSHOTS`], and seeks by restoring the nearest one before the step
+/// and running on from there. They lie at multiples of an interval, at first a quarter of a second at 240 Hz; when there are too many
+/// the interval doubles and those between are dropped. So seeking runs at most as many steps as the interval, which is a share of
+/// the whole that does not grow: a sixteenth, when no other takes are there. A stage with controllers in Python is run
+/// again from its start instead: what of their state a snapshot cannot keep would change the run.
 ///
 /// ```
 /// use sinew_control::{Action, Command};
@@ -48,6 +53,8 @@ use crate::{Stage, StageError};
 pub struct Timeline {
     takes: Vec<KnownTake>,
     present: usize,
+    snapshots: Snapshots,
+    steps_run: u64,
 }
 
 /// A take of a [`Timeline`].
@@ -126,6 +133,9 @@ pub enum SeekError {
 const MAX_TAKES: usize = 1000;
 
 impl Timeline {
+    /// Maximum number of snapshots that it keeps.
+    pub const MAX_SNAPSHOTS: usize = Snapshots::MAX;
+
     /// Begins before the first step of a stage, which keeps its record from now on.
     ///
     /// # Errors
@@ -137,7 +147,9 @@ impl Timeline {
         }
         stage.keep_record(true);
         let first = KnownTake { from: None, steps: 0, commands: Vec::new() };
-        Ok(Timeline { takes: vec![first], present: 0 })
+        let mut timeline = Timeline { takes: vec![first], present: 0, snapshots: Snapshots::default(), steps_run: 0 };
+        timeline.snapshots.offer(0, stage);
+        Ok(timeline)
     }
 
     /// Takes a step down that the stage has just done.
@@ -158,7 +170,18 @@ impl Timeline {
             // In the middle of what is known a command was given: from here on this is another take.
             self.branch(step.saturating_sub(1), step, record.to_vec())?;
         }
+        self.snapshots.offer(self.present, stage);
         Ok(())
+    }
+
+    /// Physics steps that seeking has run so far, from the snapshots to the steps that were sought.
+    pub fn steps_run(&self) -> u64 {
+        self.steps_run
+    }
+
+    /// Number of snapshots that it keeps at present.
+    pub fn snapshots(&self) -> usize {
+        self.snapshots.len()
     }
 
     /// The takes, the first one being number 0.
@@ -184,10 +207,40 @@ impl Timeline {
     /// # Errors
     /// When there is no such take, or it does not go so far.
     pub fn go_to(&mut self, stage: &mut Stage, take: usize, step: u64) -> Result<(), SeekError> {
-        self.go_to_watched(stage, take, step, &mut |_| {})
+        let known = self.known(take, step)?;
+        let commands = known.commands.clone();
+        let Some(snapshot) = self.snapshots.nearest(&self.takes, take, step, stage) else {
+            return self.go_to_watched(stage, take, step, &mut |_| {});
+        };
+        if stage.restore(&snapshot).is_err() {
+            // It is of this scene and holds no controller.
+            return self.go_to_watched(stage, take, step, &mut |_| {});
+        }
+        stage.record = commands[..commands.partition_point(|stamped| stamped.step < snapshot.step())].to_vec();
+        stage.prescribe(commands);
+        self.run_to(stage, take, step, &mut |_| {});
+        self.present = take;
+        Ok(())
     }
 
-    /// As [`Timeline::go_to`]; `seen` is shown the stage at its start and after every step.
+    fn known(&self, take: usize, step: u64) -> Result<&KnownTake, SeekError> {
+        let known = self.takes.get(take).ok_or(SeekError::NoTake { take, count: self.takes.len() })?;
+        if step > known.steps {
+            return Err(SeekError::Beyond { take, step, known: known.steps });
+        }
+        Ok(known)
+    }
+
+    fn run_to(&mut self, stage: &mut Stage, take: usize, step: u64, seen: &mut dyn FnMut(&Stage)) {
+        while stage.frame().step < step {
+            stage.step();
+            self.steps_run += 1;
+            self.snapshots.offer(take, stage);
+            seen(stage);
+        }
+    }
+
+    /// As [`Timeline::go_to`], from the start of the scene; `seen` is shown the stage there and after every step.
     pub(crate) fn go_to_watched(
         &mut self,
         stage: &mut Stage,
@@ -195,17 +248,11 @@ impl Timeline {
         step: u64,
         seen: &mut dyn FnMut(&Stage),
     ) -> Result<(), SeekError> {
-        let known = self.takes.get(take).ok_or(SeekError::NoTake { take, count: self.takes.len() })?;
-        if step > known.steps {
-            return Err(SeekError::Beyond { take, step, known: known.steps });
-        }
+        let commands = self.known(take, step)?.commands.clone();
         let mut again = stage.again()?;
-        again.prescribe(known.commands.clone());
+        again.prescribe(commands);
         seen(&again);
-        while again.frame().step < step {
-            again.step();
-            seen(&again);
-        }
+        self.run_to(&mut again, take, step, seen);
         *stage = again;
         self.present = take;
         Ok(())

@@ -40,6 +40,9 @@ impl Sense<'_> {
 
 /// A controller in Rust. What it remembers is kept with the stage: [`Snapshot`].
 pub trait Reflex: Snapshot + Send + Sync {
+    /// A copy of it with all its state, which goes on to the same bits: a snapshot of a stage holds one.
+    fn cloned(&self) -> Box<dyn Reflex>;
+
     /// Its name in scenes and commands.
     fn name(&self) -> &'static str;
 
@@ -48,6 +51,12 @@ pub trait Reflex: Snapshot + Send + Sync {
 
     /// Resets its state: it was switched on, or the character was reset.
     fn reset(&mut self);
+}
+
+impl Clone for Box<dyn Reflex> {
+    fn clone(&self) -> Box<dyn Reflex> {
+        self.as_ref().cloned()
+    }
 }
 
 /// The names of all reflexes.

@@ -32,7 +32,7 @@ const MAX_KEYS: usize = 1000;
 const MAX_DEPTH: usize = 4;
 
 /// Two sources layered, at work: local rotations are blended on the shortest arc, the hips' place on a straight line.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Blend {
     base: Box<dyn Source>,
     over: Box<dyn Source>,
@@ -149,6 +149,10 @@ impl Blend {
 }
 
 impl Source for Blend {
+    fn cloned(&self) -> Box<dyn Source> {
+        Box::new(self.clone())
+    }
+
     fn advance(&mut self, moment: &Moment, events: &mut Vec<SourceEvent>) {
         self.until_secs = moment.frame.time_secs + moment.step_secs;
         self.base.advance(moment, events);

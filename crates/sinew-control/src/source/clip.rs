@@ -4,6 +4,7 @@ use super::Source;
 use crate::{Root, Wanted};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
+use std::sync::Arc;
 
 /// Poses at a constant rate, placed on the stage.
 ///
@@ -17,7 +18,8 @@ use sinew_body::humanoid::{Body, Node, Pose};
 /// ```
 #[derive(Clone, Debug)]
 pub struct ClipSource {
-    poses: Vec<Pose>,
+    /// Shared by all copies; one that is resumed has its own from then on.
+    poses: Arc<[Pose]>,
     hz: f64,
     start_secs: f64,
     /// When it was resumed, if it was \[s of the stage\].
@@ -34,7 +36,7 @@ const NEAR_SECS: f64 = 0.3;
 impl ClipSource {
     /// Poses at a rate \[Hz\], of which the one at `start_secs` is the stage's first.
     pub fn of_poses(poses: Vec<Pose>, hz: f64, start_secs: f64) -> ClipSource {
-        ClipSource { poses, hz, start_secs, resumed_secs: None }
+        ClipSource { poses: poses.into(), hz, start_secs, resumed_secs: None }
     }
 
     /// The pose at a time of the stage; before the start the first, after the end the last.
@@ -73,6 +75,10 @@ impl ClipSource {
 }
 
 impl Source for ClipSource {
+    fn cloned(&self) -> Box<dyn Source> {
+        Box::new(self.clone())
+    }
+
     fn root(&self) -> Root {
         Root::Placed
     }
@@ -102,7 +108,7 @@ impl Source for ClipSource {
         let here = self.pose_of(from_secs);
         let turn = DQuat::from_rotation_y(heading_rad(at) - heading_rad(&here));
         let (from, to) = (here.hips_position, at.hips_position);
-        for pose in &mut self.poses {
+        for pose in Arc::make_mut(&mut self.poses) {
             let moved = turn * (pose.hips_position - from);
             pose.hips_position = DVec3::new(to.x, from.y, to.z) + moved;
             pose.world = pose.world.map(|rotation| (turn * rotation).normalize());

@@ -149,6 +149,10 @@ impl KeyPoses {
 }
 
 impl Source for KeyPoses {
+    fn cloned(&self) -> Box<dyn Source> {
+        Box::new(self.clone())
+    }
+
     fn advance(&mut self, moment: &Moment, events: &mut Vec<SourceEvent>) {
         if moment.has_poses_layer {
             events.extend(self.step_graph(moment));

@@ -79,6 +79,10 @@ pub enum SourceEvent {
 /// assert!((wanted.pose.hips_position.z - 0.05).abs() < 1e-12);
 /// ```
 pub trait Source: Any + Debug + Send + Sync {
+    /// A copy of it with all its state, which goes on to the same bits: a snapshot of a stage holds one. Motions that do not change are
+    /// shared (`Arc`), not copied.
+    fn cloned(&self) -> Box<dyn Source>;
+
     /// Advances by a physics step. Events are appended to `events`.
     fn advance(&mut self, moment: &Moment, events: &mut Vec<SourceEvent>) {
         let _ = (moment, events);
@@ -117,5 +121,11 @@ pub trait Source: Any + Debug + Send + Sync {
     /// Starts at the body's present pose: something else has moved it until now.
     fn take_over(&mut self, character: &CharacterFrame) {
         let _ = character;
+    }
+}
+
+impl Clone for Box<dyn Source> {
+    fn clone(&self) -> Box<dyn Source> {
+        self.as_ref().cloned()
     }
 }

@@ -6,6 +6,10 @@ use crate::{Root, Wanted};
 use sinew_body::humanoid::{Node, Pose};
 
 impl Source for LiveSource {
+    fn cloned(&self) -> Box<dyn Source> {
+        Box::new(self.clone())
+    }
+
     fn root(&self) -> Root {
         Root::Placed
     }

@@ -296,6 +296,10 @@ impl ReachSource {
 }
 
 impl Source for ReachSource {
+    fn cloned(&self) -> Box<dyn Source> {
+        Box::new(self.clone())
+    }
+
     fn root(&self) -> Root {
         Root::Placed
     }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// One character's sources: its own; a live performer, for which the own one is the understudy; and a reach, which begins in either
 /// and ends in either.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Sources {
     body: Body,
     book: Arc<PoseBook>,

@@ -62,6 +62,10 @@ impl KinematicTracker {
 }
 
 impl Tracker for KinematicTracker {
+    fn cloned(&self) -> Box<dyn Tracker> {
+        Box::new(self.clone())
+    }
+
     fn kind(&self) -> TrackerKind {
         TrackerKind::Kinematic
     }

@@ -16,6 +16,10 @@ impl Limp {
 }
 
 impl Tracker for Limp {
+    fn cloned(&self) -> Box<dyn Tracker> {
+        Box::new(*self)
+    }
+
     fn kind(&self) -> TrackerKind {
         TrackerKind::None
     }

@@ -77,6 +77,9 @@ pub struct TakeOver<'a> {
 /// # Ok::<(), sinew_world::SpecError>(())
 /// ```
 pub trait Tracker: Snapshot + Any + Debug + Send + Sync {
+    /// A copy of it with all its state, which goes on to the same bits: a snapshot of a stage holds one.
+    fn cloned(&self) -> Box<dyn Tracker>;
+
     /// Its kind.
     fn kind(&self) -> TrackerKind;
 
@@ -99,4 +102,10 @@ pub trait Tracker: Snapshot + Any + Debug + Send + Sync {
 
     /// Hands the body back to physics.
     fn release(&mut self, world: &mut World, character: CharacterId);
+}
+
+impl Clone for Box<dyn Tracker> {
+    fn clone(&self) -> Box<dyn Tracker> {
+        self.as_ref().cloned()
+    }
 }

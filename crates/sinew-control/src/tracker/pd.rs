@@ -49,6 +49,10 @@ impl PdTracker {
 }
 
 impl Tracker for PdTracker {
+    fn cloned(&self) -> Box<dyn Tracker> {
+        Box::new(self.clone())
+    }
+
     fn kind(&self) -> TrackerKind {
         TrackerKind::Pd
     }

@@ -186,6 +186,10 @@ impl ResponseTracker {
 }
 
 impl Tracker for ResponseTracker {
+    fn cloned(&self) -> Box<dyn Tracker> {
+        Box::new(self.clone())
+    }
+
     fn kind(&self) -> TrackerKind {
         TrackerKind::Response
     }

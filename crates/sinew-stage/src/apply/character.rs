@@ -4,6 +4,7 @@ use super::{Outcome, to_character, wrong_state};
 use crate::Stage;
 use crate::event::CharacterEffect as E;
 use crate::order::{CharacterOrder as O, Undo};
+use crate::scripts::Owner;
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::OrderError;
@@ -87,7 +88,7 @@ impl Stage {
                 (E::Reflex { reflex: name.clone(), on: *on }, back(before))
             }
             O::Controller { name } => {
-                let before = self.actors[id.slot()].script.as_ref().map(|running| running.name.clone());
+                let before = self.scripts.get(&Owner::Character(id)).map(|running| running.name.clone());
                 self.start_controller(id, name.as_deref())?;
                 (E::Controller { controller: name.clone() }, back(O::Controller { name: before }))
             }
@@ -152,9 +153,12 @@ impl Stage {
 
     /// Starts a controller of the scene for a character, in place of the one it has; `None` stops that one.
     pub(crate) fn start_controller(&mut self, id: CharacterId, name: Option<&str>) -> Result<(), OrderError> {
-        let own = self.cast.characters().get(id.slot()).cloned().unwrap_or_default();
-        let running = name.map(|name| self.start_script(name, own)).transpose()?;
-        self.actors[id.slot()].script = running;
+        let owner = Owner::Character(id);
+        let running = name.map(|name| self.start_script(name, self.owner_name(owner))).transpose()?;
+        match running {
+            Some(running) => self.scripts.insert(owner, running),
+            None => self.scripts.remove(&owner),
+        };
         Ok(())
     }
 }

@@ -71,6 +71,8 @@ pub enum Cause {
         /// Its breaking force \[N\].
         max_n: f64,
     },
+    /// The stage was restored from a snapshot.
+    Restored,
     /// In a stage that was restored from another one's snapshot: the words of a cause from before.
     Earlier {
         /// The words.
@@ -100,6 +102,7 @@ impl fmt::Display for Cause {
             }
             Cause::BodyDiverged => f.write_str("its body had gone wrong"),
             Cause::JointOverload { joint } => write!(f, "{joint} bore too much"),
+            Cause::Restored => f.write_str("the restored snapshot"),
             Cause::Earlier { words } => f.write_str(words),
             Cause::HoldOverload { force_n, max_n } => write!(f, "{force_n:.0} N are more than {max_n:.0} N"),
         }

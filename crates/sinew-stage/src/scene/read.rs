@@ -156,6 +156,12 @@ impl Scene {
         &self.held
     }
 
+    /// Whether it is the same scene: the same text and files, by their hashes, and the same values set.
+    pub(crate) fn is_same_as(&self, other: &Scene) -> bool {
+        let files = |scene: &Scene| scene.held.iter().map(|(path, held)| (path.clone(), held.hash)).collect::<Vec<_>>();
+        self.name == other.name && self.sets == other.sets && files(self) == files(other)
+    }
+
     /// What [`Scene::set`] changed.
     pub fn sets(&self) -> &[(String, String)] {
         &self.sets

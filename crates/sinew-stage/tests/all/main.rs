@@ -13,6 +13,7 @@ mod scene_errors;
 mod scene_sets;
 mod scenes_page;
 mod schema;
+mod snapshot;
 mod stage;
 mod takes;
 mod timeline;

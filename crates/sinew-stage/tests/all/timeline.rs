@@ -113,3 +113,42 @@ fn a_runner_goes_back_with_its_motion_and_its_take() {
     assert_eq!((other.commands.len(), runner.recording().unwrap().frames), (1, 121));
     assert!(matches!(Runner::new(stage()).seek(0), Err(SeekError::NoTimeline)));
 }
+
+#[test]
+fn a_seek_restores_the_nearest_snapshot_instead_of_running_everything_again() {
+    let mut stage = stage();
+    let mut timeline = Timeline::new(&mut stage).unwrap();
+    let hashes = run(&mut stage, &mut timeline, 600, &[(20, gain(0.5)), (300, gain(2.0))]);
+    assert_eq!(timeline.steps_run(), 0, "nothing was sought");
+    for step in [599, 310, 299, 60, 59] {
+        let before = timeline.steps_run();
+        timeline.seek(&mut stage, step).unwrap();
+        // Snapshots lie a quarter of a second apart, 60 steps.
+        assert_eq!(timeline.steps_run() - before, step % 60, "to {step}");
+        assert_eq!((stage.frame().step, stage.hash()), (step, hashes[step as usize - 1]));
+        assert_eq!(stage.record().len(), [20, 300].iter().filter(|at| **at < step).count());
+    }
+    // Another take restores the snapshots of the one that it left, up to there.
+    timeline.what_if(&mut stage, 200).unwrap();
+    let other = run(&mut stage, &mut timeline, 230, &[(210, gain(0.1))]);
+    let before = timeline.steps_run();
+    timeline.seek(&mut stage, 229).unwrap();
+    assert_eq!((timeline.steps_run() - before, stage.hash()), (229 - 180, other[28]));
+    timeline.go_to(&mut stage, 0, 600).unwrap();
+    assert_eq!(stage.hash(), hashes[599]);
+}
+
+#[test]
+fn snapshots_of_a_long_run_are_bounded_and_so_is_what_a_seek_runs() {
+    let mut stage = Stage::new(Scene::from_text("format = 1\n").unwrap(), None).unwrap();
+    let mut timeline = Timeline::new(&mut stage).unwrap();
+    let long = 12_000;
+    let hashes = run(&mut stage, &mut timeline, long, &[]);
+    assert!(timeline.snapshots() <= Timeline::MAX_SNAPSHOTS, "{}", timeline.snapshots());
+    for step in [long - 1, long / 2 + 1, long / 3, 7] {
+        let before = timeline.steps_run();
+        timeline.seek(&mut stage, step).unwrap();
+        assert!(timeline.steps_run() - before <= long / 16, "to {step}: {}", timeline.steps_run() - before);
+        assert_eq!(stage.hash(), hashes[step as usize - 1]);
+    }
+}

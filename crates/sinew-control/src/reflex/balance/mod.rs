@@ -99,6 +99,10 @@ impl Balance {
 }
 
 impl Reflex for Balance {
+    fn cloned(&self) -> Box<dyn Reflex> {
+        Box::new(self.clone())
+    }
+
     fn name(&self) -> &'static str {
         "balance"
     }

@@ -15,6 +15,10 @@ impl KdTracker {
 }
 
 impl Tracker for KdTracker {
+    fn cloned(&self) -> Box<dyn Tracker> {
+        Box::new(self.clone())
+    }
+
     fn kind(&self) -> TrackerKind {
         TrackerKind::Kd
     }
