@@ -11,6 +11,7 @@ mod dunk;
 mod glider;
 #[path = "../../../sinew/tests/all/golden.rs"]
 mod golden;
+mod grasps;
 mod hostile;
 mod modules;
 #[path = "../../../sinew/tests/all/ran.rs"]

@@ -5,7 +5,6 @@
 mod balloon;
 mod car;
 mod giant;
-mod grasps;
 mod sit_on_box;
 mod stage;
 mod tetherball;

@@ -1,7 +1,7 @@
 //! Hands take hold of things and of each other: "first as a soft grasp [...] and also as a hard grasp", begun by the operator, a key or
 //! a script (Nguyen et al. 2010, section 5).
 
-use super::stage::{centre, character, of, prop_centre, until, when};
+use crate::stage::{centre, character, of, prop_centre, until, when};
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_control::{Action, Command};
