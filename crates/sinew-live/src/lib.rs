@@ -9,7 +9,7 @@
 //!
 //! // Samples of 60 a second over a network that loses every twentieth. The same seed loses the same ones.
 //! let bad = Impairment { loss: 0.05, seed: 1, ..Impairment::default() };
-//! let lost = (0..1000).filter(|&number| bad.fate(number, 1.0 / 60.0).arrivals_secs[0].is_none()).count();
+//! let lost = (0..1000).filter(|&number| bad.delivery(number, 1.0 / 60.0).arrivals_secs[0].is_none()).count();
 //! assert!((20..100).contains(&lost));
 //! ```
 //!

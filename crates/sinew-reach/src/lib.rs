@@ -26,7 +26,7 @@
 //! let start = Start { pose: standing(&body, DVec3::ZERO, 0.0), before: None };
 //! let mut reacher = Reacher::new(&body, &Style::default(), &start)?;
 //! let goal = Goal { right: Some(DVec3::new(-0.2, 1.2, 0.45)), ..Goal::default() };
-//! let outcome = reacher.reach(&goal);
+//! let outcome = reacher.reach(&goal).clone();
 //! assert!(outcome.is_reached());
 //! let halfway = reacher.pose_at(0.5 * outcome.arrives_secs);
 //! assert!(halfway.is_finite());
