@@ -186,7 +186,12 @@ fn endless_loop_does_not_outlive_a_parent_that_is_gone() {
     // What the parent would send, and no parent to kill it afterwards: the first kind of question is a start.
     let question = (0u8, info("while True: pass"), host().limits);
     let bytes = postcard::to_stdvec(&question).unwrap();
-    let mut child = Command::new(host().program).stdin(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    let mut child = Command::new(host().program)
+        .env("SINEW_SCRIPT_PROTOCOL", "1")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
     let mut input = child.stdin.take().unwrap();
     input.write_all(&u32::try_from(bytes.len()).unwrap().to_le_bytes()).unwrap();
     input.write_all(&bytes).unwrap();

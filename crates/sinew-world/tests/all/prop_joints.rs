@@ -211,7 +211,11 @@ fn joints_that_are_none_are_refused() {
         specs.push(PropJointSpec { kind, ..good.clone() });
     }
     for spec in specs {
-        assert_eq!(world.add_prop_joint(spec.clone()), Err(SpecError::NoJoint), "{spec:?}");
+        let error = match spec.between[0] {
+            Entity::Prop(prop) if world.frame().prop(prop).is_none() => SpecError::StaleProp(prop),
+            _ => SpecError::NoJoint,
+        };
+        assert_eq!(world.add_prop_joint(spec.clone()), Err(error), "{spec:?}");
     }
     assert!(world.add_prop_joint(good).is_ok());
 }
