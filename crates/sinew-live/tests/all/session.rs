@@ -107,6 +107,10 @@ fn over_a_bad_network_hashes_agree_and_a_lost_client_comes_back_as_itself() {
     let now = red.stats().last_step.unwrap();
     watch_until(&red, now + 240);
     watch_until(&blue, now + 240);
+    // A step is hashed once a second; a busy machine and the loss may have taken the frames of the first few.
+    for client in [&red, &blue] {
+        until("a frame that is hashed", || client.stats().hashes.keys().any(|&step| step > now));
+    }
     let (red, blue) = (red.stats(), blue.stats());
     let done = state.close();
     assert_eq!(blue.rejoined, 1);
