@@ -29,6 +29,7 @@ extern crate self as sinew_body;
 pub mod dynamics;
 mod gravity;
 pub mod humanoid;
+pub mod measure;
 pub mod walk;
 
 pub use gravity::{STANDARD_GRAVITY_M_S2, strength_gravity_m_s2};
