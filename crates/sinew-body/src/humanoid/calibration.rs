@@ -4,9 +4,10 @@
 //! bones stacked along local axes. Limits, hinge axes and inertias need anatomical frames. They are found from
 //! geometry: a standing *reference* (the rest pose where it is a plausible one, else the clip's straightest standing
 //! frame), the directions of the bones, and, for limbs, the axis about which the elbow or knee is seen to bend in the
-//! clip, which fixes the twist of the bone better than any rest pose.
+//! clip, which fixes the twist of the bone better than any rest pose. Feet are level while they stand in the clip.
 
 use super::Node;
+use super::flat_foot::flat_foot;
 use glam::{DMat3, DQuat, DVec3};
 use sinew_motion::{Clip, Humanoid, Part, Transform};
 
@@ -58,6 +59,11 @@ impl Samples {
                 .map_or_else(|| frames[0].clone(), |(_, world)| world.clone())
         };
         Samples { frames, reference }
+    }
+
+    /// The sampled frames.
+    pub(super) fn frames(&self) -> impl Iterator<Item = &[Transform]> {
+        self.frames.iter().map(Vec::as_slice)
     }
 
     /// The mean over the frames of a vector measured in each.
@@ -150,6 +156,10 @@ pub(super) fn frames(samples: &Samples, clip: &Clip, humanoid: &Humanoid) -> [Op
         Node::LeftShoulder | Node::RightShoulder | Node::Neck | Node::Head => {
             samples.mean_rotation(carrier(humanoid, node)?, chest?)
         }
+        Node::LeftFoot | Node::RightFoot => {
+            let rest = joint_from_node(node)?;
+            flat_foot(samples, clip, humanoid, node.part(), rest).or(Some(rest))
+        }
         _ => joint_from_node(node),
     })
 }
@@ -216,7 +226,7 @@ fn from_x_up(across: DVec3) -> DQuat {
 
 /// The frame whose −Y is along `down`, as far as `across`, kept exactly in the XY plane, allows: `down` wins for limbs
 /// (a bone is where it is), and for across-lines the two are all but perpendicular anyway.
-fn from_x_and_down(across: DVec3, down: DVec3) -> Option<DQuat> {
+pub(super) fn from_x_and_down(across: DVec3, down: DVec3) -> Option<DQuat> {
     let y = -down.try_normalize()?;
     let x = (across - y * across.dot(y)).try_normalize()?;
     Some(DQuat::from_mat3(&DMat3::from_cols(x, y, x.cross(y))).normalize())

@@ -3,6 +3,7 @@
 mod anthropometry;
 mod body;
 mod calibration;
+mod flat_foot;
 mod leg;
 mod limb;
 mod limit;

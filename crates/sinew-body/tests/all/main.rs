@@ -9,6 +9,7 @@ mod dynamics_vectors;
 mod limb_random;
 mod limb_targets;
 mod sample_files;
+mod soles;
 mod walk;
 mod walk_table;
 
