@@ -2,26 +2,23 @@
 //!
 //! EQ7 as printed divides a moment by a mass and drifts for ever. Here the push accelerates the whole body by its mass
 //! and its inertia about the hips, and the held feet pull the hips back: an implicit, critically damped return. The
-//! shown deviation saturates smoothly and is limited by the legs: feet stay where the input has them, so the hips sink
-//! and stay within reach of both ankles.
+//! shown deviation saturates smoothly and is what the legs allow: feet stay where the input has them, so the hips go round
+//! them ([`HipsDeviation::held_by`]).
 
 use crate::force::PointForce;
-use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, LEGS, LegPose, Pose, exp, shift_within_reach, solve_leg};
+use glam::DVec3;
+use sinew_body::humanoid::{Body, HipsDeviation, Pose};
 use sinew_snapshot::snapshot;
 
 /// Frequency of the return \[rad/s\].
 const RETURN: f64 = 5.0;
 
 /// Saturation of the shown shift \[m for a 1.7 m body\].
-const MAX_SHIFT_M: f64 = 0.05;
+const MAX_SHIFT_M: f64 = 0.036;
 
 /// Saturation of the shown rotation \[rad\]: 15 degrees. Whole-body yaw inertia is only about 1 kg m², so that an
 /// unsaturated 400 N on a hand would turn the hips by half a right angle.
 const MAX_TURN: f64 = 15.0 * std::f64::consts::PI / 180.0;
-
-/// Bisections to find the largest deviation that the legs' joints allow: to a thousandth.
-const LIMIT_HALVINGS: usize = 10;
 
 /// The hips' deviation from the input.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,17 +29,7 @@ pub(crate) struct HipsState {
     spin: DVec3,
 }
 
-/// The shown part of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct HipsDeviation {
-    /// \[m\], world.
-    pub shift: DVec3,
-    /// Rotation vector \[rad\], world.
-    pub turn: DVec3,
-}
-
 snapshot!(HipsState { shift, velocity, turn, spin });
-snapshot!(HipsDeviation { shift, turn });
 
 impl HipsState {
     /// Advances by a time step under forces that act on `pose`.
@@ -76,16 +63,8 @@ impl HipsState {
         }
     }
 
-    /// Whether the hips deviate from the input.
-    pub(crate) fn departs(&self) -> bool {
-        self.shift != DVec3::ZERO || self.turn != DVec3::ZERO
-    }
-
-    /// The deviation applied to the input's pose: saturated, and within reach of the input's ankles.
+    /// The deviation applied to the input's pose: saturated, and as far as the input's legs allow.
     pub(crate) fn shown(&self, body: &Body, input: &Pose) -> HipsDeviation {
-        if !self.departs() {
-            return HipsDeviation::default();
-        }
         let saturated = |vector: DVec3, limit: f64| {
             let length = vector.length();
             if length == 0.0 { vector } else { vector * (limit * libm::tanh(length / limit) / length) }
@@ -94,61 +73,6 @@ impl HipsState {
             turn: saturated(self.turn, MAX_TURN),
             shift: saturated(self.shift, MAX_SHIFT_M * body.stature_m() / 1.7),
         };
-        let legs = Legs::of(body, input);
-        let mut shown = legs.reached(whole);
-        if legs.are_within_limits(body, input, &shown) {
-            return shown;
-        }
-        // The input's own legs are within their limits, so a part of the deviation is too.
-        let (mut inside, mut outside) = (0.0, 1.0);
-        for _ in 0..LIMIT_HALVINGS {
-            let middle = 0.5 * (inside + outside);
-            let part = legs.reached(HipsDeviation { turn: whole.turn * middle, shift: whole.shift * middle });
-            if legs.are_within_limits(body, input, &part) { inside = middle } else { outside = middle }
-        }
-        shown = legs.reached(HipsDeviation { turn: whole.turn * inside, shift: whole.shift * inside });
-        shown
-    }
-}
-
-/// The input's legs, which bound the hips' deviation.
-struct Legs {
-    hips: DVec3,
-    legs: [LegPose; 2],
-}
-
-impl Legs {
-    fn of(body: &Body, input: &Pose) -> Legs {
-        let positions = input.positions(body);
-        let legs = LEGS.map(|(upper, lower, foot)| {
-            let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
-            LegPose { hip, knee, ankle, knee_axis: input.world[lower.index()] * DVec3::X }
-        });
-        Legs { hips: positions[0], legs }
-    }
-
-    /// Positions of both hip joints for rotated hips \[m\].
-    fn carried(&self, turn: DQuat) -> [DVec3; 2] {
-        self.legs.map(|leg| self.hips + turn * (leg.hip - self.hips))
-    }
-
-    /// The deviation with its shift limited to the reach of both ankles.
-    fn reached(&self, wanted: HipsDeviation) -> HipsDeviation {
-        let shift = shift_within_reach(&self.legs, self.carried(exp(wanted.turn)), wanted.shift);
-        HipsDeviation { shift, ..wanted }
-    }
-
-    /// Whether hip, knee and ankle joints are within their limits with the feet where the input has them.
-    fn are_within_limits(&self, body: &Body, input: &Pose, shown: &HipsDeviation) -> bool {
-        let turn = exp(shown.turn);
-        let hips = turn * input.world[0];
-        self.legs.iter().zip(self.carried(turn)).zip(LEGS).all(|((leg, hip), (upper, lower, foot))| {
-            let (thigh_turn, shank_turn) = solve_leg(leg, hip + shown.shift, leg.ankle);
-            let thigh = thigh_turn * input.world[upper.index()];
-            let shank = shank_turn * input.world[lower.index()];
-            body.link(upper).limit.contains(hips.conjugate() * thigh)
-                && body.link(lower).limit.contains(thigh.conjugate() * shank)
-                && body.link(foot).limit.contains(shank.conjugate() * input.world[foot.index()])
-        })
+        if whole.is_none() { whole } else { whole.held_by(&input.legs(body), input.hips_position) }
     }
 }

@@ -2,9 +2,13 @@
 
 use crate::settings::{CUTOFF_HZ, Settings};
 use glam::DQuat;
-use sinew_body::humanoid::{Body, Node, Pose, Reduction};
+use sinew_body::humanoid::{Body, LEGS, Node, Pose, Reduction};
 use sinew_motion::{Clip, LowPass};
 use std::ops::Range;
+
+/// By how much the hips' deviation may turn a leg's joint \[rad\]: their own turn, and that of a leg of 0.8 m whose hip moves by
+/// 5 cm. Feet are held, so that no limit of the legs' joints can stop the hips without a jerk.
+const LEG_ROOM: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
 /// Poses of the 18 bodies at the response's own rate, low-pass filtered, from which torques are computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,10 +70,14 @@ impl Motion {
         index(from_secs).min(end)..end
     }
 
-    /// The body with its joint limits widened to contain all poses of this motion.
+    /// The body with its joint limits widened to contain all poses of this motion, and of the legs' joints to what the hips'
+    /// deviation turns them beyond that.
     pub(crate) fn widen(&self, body: &mut Body) {
         for pose in &self.poses {
             body.widen_limits(pose);
+        }
+        for node in LEGS.into_iter().flat_map(|(upper, lower, foot)| [upper, lower, foot]) {
+            body.link_mut(node).limit.add_room(LEG_ROOM);
         }
     }
 }

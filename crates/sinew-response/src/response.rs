@@ -2,7 +2,7 @@
 
 use crate::basis::Basis;
 use crate::force::PointForce;
-use crate::hips::{HipsDeviation, HipsState};
+use crate::hips::HipsState;
 use crate::input::Input;
 use crate::limits::Limits;
 use crate::objective::{Frame, Objective, Row, Weighing};
@@ -11,7 +11,7 @@ use crate::task::{MAX_ROWS, Task, rows_of};
 use crate::torque::{Differences, world_turn};
 use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Deviation, LEGS, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log};
+use sinew_body::humanoid::{Body, Deviation, HipsDeviation, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log};
 use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer, snapshot};
 
 /// A jump of the push's generalised force by more than this is a new perturbation \[N m for an 80 kg body\].
@@ -208,11 +208,6 @@ impl Response {
         let dt = self.settings.time_step_secs;
 
         state.hips.advance(&self.body, &state.output, forces, dt);
-        if state.hips.departs() {
-            for node in LEGS.into_iter().flat_map(|(upper, lower, foot)| [upper, lower, foot]) {
-                self.body.link_mut(node).limit.widen(next.pose.local(node));
-            }
-        }
         let shown = state.hips.shown(&self.body, &next.pose);
         // The input's torque now.
         let aim =
@@ -456,7 +451,7 @@ fn posed(body: &Body, wanted: &Input, turned: &[DQuat; UPPER_NODES], hips: &Hips
             pose.world[at] = (pose.world[parent] * (wanted.local[at] * turned[at])).normalize();
         }
     }
-    if hips.turn != DVec3::ZERO || hips.shift != DVec3::ZERO {
+    if !hips.is_none() {
         pose.plant_feet(body, &wanted.pose, hips.shift, hips_turned);
     }
     pose

@@ -18,31 +18,43 @@ pub struct LegPose {
     pub knee_axis: DVec3,
 }
 
-/// Displacement of hip and ankle over which a knee that the input bends backward, or hardly at all, comes to bend about its
-/// hinge \[m\].
-const ROUND_M: f64 = 5e-4;
-
-/// Sines of the angle between thigh and line to the ankle up to which, and from which on, the input's leg has a plane of its
-/// own: in a straighter leg the knee's side is noise.
-const STRAIGHT: (f64, f64) = (0.005, 0.015);
-const BENT: (f64, f64) = (0.04, 0.17);
-
 /// The input's thigh and shank turned in the world, `world_from_world` deltas, so that the leg, its hip at `hip`, puts
 /// its ankle at `ankle`; the leg stretches as far as it can when the ankle is out of reach.
 ///
-/// The knee's position follows from the lengths except for a rotation about the line from hip to ankle: a bent knee
-/// keeps the input's, one that is straight or bent backward turns to the front as hip or ankle move. The twists of
-/// thigh and shank keep the hinge axis fixed to the leg as a whole.
+/// The lengths leave the knee free to go round the line from hip to ankle. Where the leg stretches, it stays on its side; where
+/// it flexes more, it moves forward, as its hinge bends, from wherever it is: so a nearly straight leg, whose side is noise,
+/// does not swing round with that noise. The twists of thigh and shank keep the hinge axis fixed to the leg as a whole.
 pub fn solve_leg(input: &LegPose, hip: DVec3, ankle: DVec3) -> (DQuat, DQuat) {
-    let moved = (hip - input.hip).length() + (ankle - input.ankle).length();
-    if moved == 0.0 {
+    solve_leg_beside(input, hip, ankle, OffLine::at)
+}
+
+/// As [`solve_leg`], where `beside` says where the knee comes from where it was and how far off the line it has to be \[m\].
+pub(crate) fn solve_leg_beside(
+    input: &LegPose,
+    hip: DVec3,
+    ankle: DVec3,
+    beside: impl Fn(&OffLine, f64) -> OffLine,
+) -> (DQuat, DQuat) {
+    if hip == input.hip && ankle == input.ankle {
         return (DQuat::IDENTITY, DQuat::IDENTITY);
     }
-    place_knee(input, hip, ankle, smoothstep(0.0, ROUND_M, moved)).unwrap_or_default()
+    place_knee(input, hip, ankle, beside).unwrap_or_default()
+}
+
+/// A knee beside the line from hip to ankle \[m\]: forward, as its hinge bends, and to the side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OffLine {
+    pub(crate) front: f64,
+    pub(crate) side: f64,
 }
 
 /// `None` for a leg without length.
-fn place_knee(leg: &LegPose, hip: DVec3, ankle: DVec3, share: f64) -> Option<(DQuat, DQuat)> {
+fn place_knee(
+    leg: &LegPose,
+    hip: DVec3,
+    ankle: DVec3,
+    beside: impl Fn(&OffLine, f64) -> OffLine,
+) -> Option<(DQuat, DQuat)> {
     let (thigh_line, shank_line) = (leg.knee - leg.hip, leg.ankle - leg.knee);
     let (thigh, shank) = (thigh_line.length(), shank_line.length());
     let old_line = (leg.ankle - leg.hip).try_normalize()?;
@@ -50,31 +62,51 @@ fn place_knee(leg: &LegPose, hip: DVec3, ankle: DVec3, share: f64) -> Option<(DQ
     if thigh < 1e-6 || shank < 1e-6 {
         return None;
     }
-    // Where the input's knee is around its line: 0 in front, as the hinge would have it.
     let front = old_line.cross(leg.knee_axis).try_normalize()?;
     let side = old_line.cross(front);
-    let off_line = thigh_line - old_line * thigh_line.dot(old_line);
-    let sine = off_line.length() / thigh;
-    let mut around = libm::atan2(off_line.dot(side), off_line.dot(front)) * smoothstep(STRAIGHT.0, STRAIGHT.1, sine);
-    if around < -BEHIND.1 {
-        around += 2.0 * std::f64::consts::PI;
-    }
-    let unsure = (1.0 - smoothstep(BENT.0, BENT.1, sine)).max(smoothstep(BEHIND.0, BEHIND.1, around.abs()));
-    let (sin_around, cos_around) = libm::sincos(around * (1.0 - share * unsure));
+    let off_line = OffLine { front: thigh_line.dot(front), side: thigh_line.dot(side) };
 
     let turn = DQuat::from_rotation_arc(old_line, new_line);
     let length = (ankle - hip).length();
     let (sin, cos) = libm::sincos(hip_angle(thigh, shank, flexion_for(thigh, shank, length)));
-    let out = (turn * front) * cos_around + (turn * side) * sin_around;
-    let knee = hip + new_line * (thigh * cos) + out * (thigh * sin);
+    let off_line = beside(&off_line, thigh * sin);
+    let knee = hip + new_line * (thigh * cos) + (turn * front) * off_line.front + (turn * side) * off_line.side;
     let axis = turn * leg.knee_axis;
     let thigh_turn = along(knee - hip, axis)? * along(turn * thigh_line, axis)?.conjugate() * turn;
     let shank_turn = along(ankle - knee, axis)? * along(turn * shank_line, axis)?.conjugate() * turn;
     Some((thigh_turn.normalize(), shank_turn.normalize()))
 }
 
-/// Angles around the leg's line between which a knee counts as bent aside rather than backward \[rad\].
-const BEHIND: (f64, f64) = (1.0, 2.1);
+/// How far off the line a knee that is bent backward has to come, squared and relative to how far behind it is, until it is in
+/// front: some four times as far as it was.
+const ROUND: f64 = 15.0;
+
+impl OffLine {
+    /// This knee when it is so far off the line.
+    fn at(&self, far: f64) -> OffLine {
+        let was = (self.front * self.front + self.side * self.side).sqrt();
+        if far <= was {
+            let share = if was > 0.0 { far / was } else { 0.0 };
+            return OffLine { front: self.front * share, side: self.side * share };
+        }
+        let further = (far - was) * (far + was);
+        let ahead = (self.front * self.front + further).sqrt();
+        if self.front >= 0.0 {
+            return OffLine { front: ahead, side: self.side };
+        }
+        // One that the input bends backward goes round, always by the same side.
+        let (mut from, to) = (libm::atan2(self.side, self.front), libm::atan2(self.side, ahead));
+        if from < -BEHIND {
+            from += 2.0 * std::f64::consts::PI;
+        }
+        let share = smoothstep(0.0, ROUND * self.front * self.front, further);
+        let (sin, cos) = libm::sincos(from + (to - from) * share);
+        OffLine { front: far * cos, side: far * sin }
+    }
+}
+
+/// Angle around the leg's line beyond which a knee counts as bent backward rather than aside \[rad\].
+const BEHIND: f64 = 2.1;
 
 /// The frame of a bone with this hinge axis: its −Y along the bone, its X as close to the axis as that allows.
 fn along(bone: DVec3, axis: DVec3) -> Option<DQuat> {
@@ -97,48 +129,70 @@ fn hip_angle(thigh: f64, shank: f64, flexion: f64) -> f64 {
 }
 
 /// From 0 at `from` to 1 at `to`, with flat ends.
-fn smoothstep(from: f64, to: f64, value: f64) -> f64 {
+pub(crate) fn smoothstep(from: f64, to: f64, value: f64) -> f64 {
     let share = ((value - from) / (to - from)).clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
 }
 
-/// Maximum extension of a leg \[1 of its length\] unless the input's is straighter: knees do not snap.
-const STRAIGHTEST: f64 = 0.9995;
+/// How much of its flexion a knee may lose, and gain.
+const LESS: f64 = 0.15;
+const MORE: f64 = 0.25;
 
-/// Iterations over the two legs; each is a projection onto a ball, and two intersecting balls need few.
-const SWEEPS: usize = 16;
+/// By how much the line from hip to ankle of an input's leg may change its length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    /// The input's length \[m\].
+    pub length_m: f64,
+    /// Largest gain and loss \[m\].
+    longer_m: f64,
+    shorter_m: f64,
+}
 
-/// The shift of the hips \[m\] closest to `shift` at which both legs of the input still reach their ankles; `hips` are
-/// the unshifted hip joints. As a rule the hips sink a little.
-pub fn shift_within_reach(legs: &[LegPose; 2], hips: [DVec3; 2], shift: DVec3) -> DVec3 {
-    let legs = [0, 1].map(|side| {
-        let leg = &legs[side];
-        let length = (leg.knee - leg.hip).length() + (leg.ankle - leg.knee).length();
-        let reach = (length * STRAIGHTEST).max((leg.ankle - leg.hip).length());
-        (hips[side] - leg.ankle, reach)
-    });
-    let mut shift = shift;
-    for _ in 0..SWEEPS {
-        let mut moved = false;
-        for (from_ankle, reach) in legs {
-            let line = from_ankle + shift;
-            let length = line.length();
-            if length > reach {
-                shift -= line * (1.0 - reach / length);
-                moved = true;
-            }
-        }
-        if !moved {
-            break;
+impl Stretch {
+    pub(super) fn of(leg: &LegPose) -> Stretch {
+        let (thigh_line, shank_line, line) = (leg.knee - leg.hip, leg.ankle - leg.knee, leg.ankle - leg.hip);
+        let (thigh, shank, length) = (thigh_line.length(), shank_line.length(), line.length());
+        let flexion = flexion_for(thigh, shank, length);
+        // A knee that is bent backward or aside has no flexion of its hinge to change.
+        let front = line.cross(leg.knee_axis).normalize_or_zero();
+        let off_line = thigh_line - line * (thigh_line.dot(line) / line.length_squared().max(1e-12));
+        let hinged = (off_line.dot(front) / off_line.length().max(1e-9)).max(0.0);
+        let at = |flexion: f64| {
+            let cos = libm::cos(flexion.min(std::f64::consts::PI));
+            (thigh * thigh + shank * shank + 2.0 * thigh * shank * cos).max(0.0).sqrt()
+        };
+        Stretch {
+            length_m: length,
+            longer_m: (at(flexion * (1.0 - LESS * hinged)) - length).max(0.0),
+            shorter_m: (length - at(flexion * (1.0 + MORE * hinged))).max(0.0),
         }
     }
-    shift
+
+    /// A change of length, saturated.
+    pub(super) fn within(&self, change_m: f64) -> f64 {
+        let most = if change_m > 0.0 { self.longer_m } else { self.shorter_m };
+        let ratio = change_m / most.max(1e-9);
+        if most > 1e-9 { change_m / (1.0 + ratio * ratio).sqrt() } else { 0.0 }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn a_nearly_straight_knee_bends_forward_whichever_side_noise_puts_it_on() {
+        let bent = |x: f64, z: f64| {
+            let input = LegPose { knee: DVec3::new(0.115 + x, 0.49, z), ..leg() };
+            let (thigh, _) = solve_leg(&input, input.hip - DVec3::Y * 0.02, input.ankle);
+            input.hip - DVec3::Y * 0.02 + thigh * (input.knee - input.hip)
+        };
+        for (x, z) in [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (7e-4, -7e-4)] {
+            // Two millimetres of noise around the leg move the bent knee by no more than that.
+            assert!((bent(x, -0.009 + z) - bent(0.0, -0.009)).length() < 2e-3, "{x} {z}");
+        }
+    }
 
     /// The knee's flexion \[rad\], negative when it is bent backward.
     fn flexion(leg: &LegPose) -> f64 {
@@ -200,7 +254,7 @@ mod tests {
             assert!((ankle - input.ankle).length() < 1e-9, "{drop}: {}", (ankle - input.ankle).length());
             (knee, flexion(&LegPose { hip, knee, ankle, knee_axis: shank * input.knee_axis }))
         };
-        assert!(bent(ROUND_M).1 > 0.05);
+        assert!(bent(0.01).1 > 0.05);
         let knees: Vec<DVec3> = (0..=500).map(|step| bent(f64::from(step) * 1e-6).0).collect();
         // A micrometre of hip never moves the knee by more than half a millimetre.
         assert!(knees.windows(2).all(|pair| (pair[1] - pair[0]).length() < 5e-4));

@@ -128,6 +128,15 @@ impl Limit {
         self.twist.1 = self.twist.1.max(twist);
     }
 
+    /// Widens the range by an angle \[rad\] on every side.
+    pub fn add_room(&mut self, room: f64) {
+        let Swing { x_negative, x_positive, z_negative, z_positive } = &mut self.swing;
+        for half_axis in [x_negative, x_positive, z_negative, z_positive] {
+            *half_axis += room;
+        }
+        self.twist = (self.twist.0 - room, self.twist.1 + room);
+    }
+
     /// Length of the swing relative to the ellipse's radius in its direction.
     pub fn swing_ratio(&self, x: f64, z: f64) -> f64 {
         let mut limit = *self;

@@ -4,6 +4,7 @@ mod anthropometry;
 mod body;
 mod calibration;
 mod flat_foot;
+mod hips;
 mod leg;
 mod limb;
 mod limit;
@@ -16,7 +17,9 @@ mod sole;
 mod support;
 
 pub use body::{Body, Link, Shape};
-pub use leg::{LegPose, shift_within_reach, solve_leg};
+pub use hips::HipsDeviation;
+pub use leg::{LegPose, solve_leg};
+pub(crate) use leg::{OffLine, smoothstep, solve_leg_beside};
 pub use limb::{Limb, LimbGoal, LimbTurns, TurnedLimb, solve_limb, solve_limb_turned};
 pub use limit::{Limit, Swing};
 pub use node::{Axis, Dof, LEGS, Node, UPPER_DOFS, UPPER_NODES, upper_dofs};

@@ -5,7 +5,8 @@
 //! both feet stay where the input has them, in place and orientation, and the legs are bent to reach them. Without a
 //! deviation every joint keeps its value, bit for bit.
 
-use super::leg::{LegPose, shift_within_reach, solve_leg};
+use super::hips::HipsDeviation;
+use super::leg::{LegPose, solve_leg};
 use super::node::LEGS;
 use super::rotation::{exp, log};
 use super::{Node, Reduction, UPPER_NODES};
@@ -126,8 +127,7 @@ impl<'a> Overlay<'a> {
         mut moved: impl FnMut(usize, DVec3),
     ) {
         let input = self.reduction.orientations(world);
-        let mut turned = Turned::of(&input, deviation);
-        let shift = self.plant_feet(world, &input, deviation.hips_shift, &mut turned);
+        let (turned, shift) = self.planted(world, &input, deviation);
         for (joint, transform) in world.iter().enumerate() {
             let parent = self.reduction.parents[joint];
             let parent_delta = parent.map_or(DQuat::IDENTITY, |parent| self.deltas[parent]);
@@ -150,31 +150,39 @@ impl<'a> Overlay<'a> {
         }
     }
 
-    /// Bends both legs so that the feet stay where the input has them; returns the hips' shift, limited to the reach of
-    /// the source's own legs, which may differ by millimetres from the body's.
-    fn plant_feet(
-        &self,
-        world: &[Transform],
-        input: &[DQuat; Node::COUNT],
-        shift: DVec3,
-        turned: &mut Turned,
-    ) -> DVec3 {
+    /// The changes with both legs bent so that the feet stay where the input has them, and the hips' shift. Their deviation is
+    /// what the source's own legs allow, which may differ by millimetres from the body's.
+    fn planted(&self, world: &[Transform], input: &[DQuat; Node::COUNT], deviation: &Deviation) -> (Turned, DVec3) {
         let at = |node: Node| Some(world[self.reduction.joint(node)?].translation);
         let leg = |(upper, lower, foot): (Node, Node, Node)| {
             let knee_axis = input[lower.index()] * DVec3::X;
-            let leg = LegPose { hip: at(upper)?, knee: at(lower)?, ankle: at(foot)?, knee_axis };
-            Some((leg, self.carried(world, self.reduction.joint(upper)?, turned)))
+            Some(LegPose { hip: at(upper)?, knee: at(lower)?, ankle: at(foot)?, knee_axis })
         };
-        let (Some((left, left_hip)), Some((right, right_hip))) = (leg(LEGS[0]), leg(LEGS[1])) else { return shift };
-        let (legs, carried) = ([left, right], [left_hip, right_hip]);
-        let unmoved = shift == DVec3::ZERO && legs.iter().zip(carried).all(|(leg, hip)| leg.hip == hip);
-        let shift = if unmoved { shift } else { shift_within_reach(&legs, carried, shift) };
-        for ((leg, hip), (upper, lower, _)) in legs.iter().zip(carried).zip(LEGS) {
-            let (thigh, shank) = solve_leg(leg, hip + shift, leg.ankle);
+        let wanted = HipsDeviation { shift: deviation.hips_shift, turn: deviation.hips_turn };
+        let mut turned = Turned::of(input, deviation);
+        let legs = leg(LEGS[0]).zip(leg(LEGS[1])).zip(at(Node::Hips));
+        let Some(((left, right), joint)) = legs else { return (turned, wanted.shift) };
+        let legs = [left, right];
+        let carried = |side: usize, turned: &Turned| {
+            let hip = self.reduction.joint(LEGS[side].0);
+            hip.map_or(legs[side].hip, |hip| self.carried(world, hip, turned))
+        };
+        // Where the legs are attached to the spine, the trunk moves them too.
+        let beside = [0, 1].map(|side| {
+            let moved = carried(side, &turned) - joint - exp(wanted.turn) * (legs[side].hip - joint);
+            if moved.length() > NOTHING { moved } else { DVec3::ZERO }
+        });
+        if wanted.is_none() && beside == [DVec3::ZERO; 2] {
+            return (turned, wanted.shift);
+        }
+        let hips = wanted.held_beside(&legs, joint, beside);
+        turned = Turned::of(input, &Deviation { hips_turn: hips.turn, ..*deviation });
+        for (side, (upper, lower, _)) in LEGS.into_iter().enumerate() {
+            let (thigh, shank) = solve_leg(&legs[side], carried(side, &turned) + hips.shift, legs[side].ankle);
             turned.nodes[upper.index()] = thigh;
             turned.nodes[lower.index()] = shank;
         }
-        shift
+        (turned, hips.shift)
     }
 
     /// Position of a joint under the rotations of the joints above it \[m\]. Most rigs attach the legs to the hips,

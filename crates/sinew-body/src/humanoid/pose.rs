@@ -2,7 +2,7 @@
 
 use super::node::LEGS;
 use super::rotation::exp;
-use super::{Body, Deviation, LegPose, Node, UPPER_NODES, solve_leg};
+use super::{Body, Deviation, HipsDeviation, LegPose, Node, UPPER_NODES, solve_leg};
 use glam::{DQuat, DVec3};
 use sinew_snapshot::snapshot;
 
@@ -64,10 +64,12 @@ impl Pose {
     #[must_use]
     pub fn deviated(&self, body: &Body, deviation: &Deviation) -> Pose {
         let mut pose = *self;
-        pose.hips_position += deviation.hips_shift + deviation.ground_shift;
-        let hips_turned = exp(deviation.hips_turn);
+        let wanted = HipsDeviation { shift: deviation.hips_shift, turn: deviation.hips_turn };
+        let hips = if wanted.is_none() { wanted } else { wanted.held_by(&self.legs(body), self.hips_position) };
+        pose.hips_position += hips.shift + deviation.ground_shift;
+        let hips_turned = exp(hips.turn);
         let mut moved = [false; UPPER_NODES];
-        if deviation.hips_turn != DVec3::ZERO {
+        if hips.turn != DVec3::ZERO {
             pose.world[0] = hips_turned * self.world[0];
             moved[0] = true;
         }
@@ -78,21 +80,27 @@ impl Pose {
                 pose.world[at] = (pose.world[parent] * (self.local(node) * exp(deviation.turns[at]))).normalize();
             }
         }
-        if moved[0] || deviation.hips_shift != DVec3::ZERO {
-            pose.plant_feet(body, self, deviation.hips_shift, hips_turned);
+        if !hips.is_none() {
+            pose.plant_feet(body, self, hips.shift, hips_turned);
         }
         pose
+    }
+
+    /// Its legs in the world, left and right.
+    pub fn legs(&self, body: &Body) -> [LegPose; 2] {
+        let positions = self.positions(body);
+        LEGS.map(|(upper, lower, foot)| {
+            let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
+            LegPose { hip, knee, ankle, knee_axis: self.world[lower.index()] * DVec3::X }
+        })
     }
 
     /// Turns the legs of this pose so that its feet are where `wanted` has them, when its hips are `wanted`'s turned by
     /// `hips_turned` (`world_from_world`) and then shifted.
     pub fn plant_feet(&mut self, body: &Body, wanted: &Pose, hips_shift: DVec3, hips_turned: DQuat) {
-        let positions = wanted.positions(body);
-        for (upper, lower, foot) in LEGS {
-            let [hip, knee, ankle] = [upper, lower, foot].map(|node| positions[node.index()]);
-            let leg = LegPose { hip, knee, ankle, knee_axis: wanted.world[lower.index()] * DVec3::X };
-            let new_hip = positions[0] + hips_shift + hips_turned * (hip - positions[0]);
-            let (thigh, shank) = solve_leg(&leg, new_hip, ankle);
+        for (leg, (upper, lower, _)) in wanted.legs(body).iter().zip(LEGS) {
+            let hip = wanted.hips_position + hips_shift + hips_turned * (leg.hip - wanted.hips_position);
+            let (thigh, shank) = solve_leg(leg, hip, leg.ankle);
             self.world[upper.index()] = (thigh * wanted.world[upper.index()]).normalize();
             self.world[lower.index()] = (shank * wanted.world[lower.index()]).normalize();
         }

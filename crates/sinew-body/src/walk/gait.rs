@@ -13,7 +13,7 @@ use super::measured::{measured, measured_leg};
 use super::series::{Jet, ORDER, Series, Waves, project, quintic};
 use super::skeleton::WalkSkeleton;
 use super::stance::{LANDS, LEAVES, roll, standing, weight};
-use crate::humanoid::{LegPose, Node, exp, log, solve_leg};
+use crate::humanoid::{LegPose, Node, OffLine, exp, log, smoothstep, solve_leg_beside};
 use glam::{DQuat, DVec3};
 
 /// Phase at which the toes, bent by the push, are relaxed, and their bend then \[rad\].
@@ -240,14 +240,16 @@ impl Gait {
             ankle: hips + leg.ankle,
             knee_axis: leg.shank * DVec3::X,
         };
-        let (thigh_turn, shank_turn) = solve_leg(&input, input.hip, ankle);
-        let forward = DVec3::Z * (self.stride_m * stride);
+        let thigh_m = (input.knee - input.hip).length();
+        let beside = |knee: &OffLine, far_m: f64| forward(knee, thigh_m, far_m);
+        let (thigh_turn, shank_turn) = solve_leg_beside(&input, input.hip, ankle, beside);
+        let travelled = DVec3::Z * (self.stride_m * stride);
         ShownLeg {
             thigh: thigh_turn * leg.thigh,
             shank: shank_turn * leg.shank,
             foot,
             toes: exp(DVec3::X * bend),
-            ankle: ankle + forward,
+            ankle: ankle + travelled,
         }
     }
 
@@ -289,4 +291,17 @@ impl Gait {
 fn lift(t: f64) -> f64 {
     let bow = 4.0 * t * (1.0 - t);
     bow * bow * bow
+}
+
+/// Sines of the angle between thigh and line to the ankle between which a measured leg comes to have a side of its own: in a
+/// straighter one the knee's side is the mean of noise.
+const STRAIGHT: (f64, f64) = (0.005, 0.015);
+const BENT: (f64, f64) = (0.04, 0.17);
+
+/// A measured knee further off the leg's line, forward as far as the measured leg is straight.
+fn forward(knee: &OffLine, thigh_m: f64, far_m: f64) -> OffLine {
+    let sine = (knee.front * knee.front + knee.side * knee.side).sqrt() / thigh_m;
+    let own = smoothstep(STRAIGHT.0, STRAIGHT.1, sine) * smoothstep(BENT.0, BENT.1, sine);
+    let (sin, cos) = libm::sincos(libm::atan2(knee.side, knee.front) * own);
+    OffLine { front: far_m * cos, side: far_m * sin }
 }

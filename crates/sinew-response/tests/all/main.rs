@@ -2,10 +2,12 @@
 
 mod claims_compliance;
 mod claims_input;
+mod claims_legs;
 mod claims_live;
 mod claims_presets;
 mod claims_recovery;
 mod pushing;
+mod seen;
 mod snapshots;
 mod steps;
 
