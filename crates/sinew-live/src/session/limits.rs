@@ -3,8 +3,8 @@
 
 use std::time::Duration;
 
-/// Version of the protocol. Both sides must use the same.
-pub const PROTOCOL: u32 = 1;
+/// Version of the protocol. Both sides must use the same. 2: frames say which slots are vacant or were used before.
+pub const PROTOCOL: u32 = 2;
 
 /// Default UDP port of a server.
 pub const DEFAULT_PORT: u16 = 47110;
@@ -21,20 +21,8 @@ pub const MAX_HELLO: usize = 4 << 10;
 /// Maximum size of a scene with all its files, as a take holds them \[bytes\].
 pub const MAX_SCENE: usize = 64 << 20;
 
-/// Maximum size of an encoded frame \[bytes\]: some 8000 bodies with their contacts.
+/// Maximum size of a frame \[bytes\]: some 8000 bodies with their contacts. [`sinew_world::frame_bytes`] limits what is in it.
 pub const MAX_FRAME: usize = 2 << 20;
-
-/// Maximum number of characters in an encoded frame.
-pub const MAX_CHARACTERS: usize = 1 << 10;
-
-/// Maximum number of props in an encoded frame.
-pub const MAX_PROPS: usize = 1 << 14;
-
-/// Maximum number of contacts in an encoded frame; of more only the first are sent.
-pub const MAX_CONTACTS: usize = 1 << 12;
-
-/// Maximum number of corners of one support polygon in an encoded frame.
-pub const MAX_CORNERS: usize = 255;
 
 /// Maximum number of actors that one client may play.
 pub const MAX_ACTORS_PER_CLIENT: usize = 8;

@@ -4,7 +4,6 @@ use super::certificate::{client_side, is_wrong_certificate, server_name};
 use super::channel::{read_bytes, receive_message, send_message};
 use super::client_datagram::ClientDatagram;
 use super::client_stats::ClientStats;
-use super::frame_code::decode_frame;
 use super::limits::*;
 use super::message::{ClientMessage, Hello, ServerMessage, Welcome};
 use super::{PROTOCOL, SessionError, Token};
@@ -174,7 +173,7 @@ async fn receive_frames(connection: &Connection, received: &Arc<Received>) -> Se
         tokio::spawn(async move {
             // A frame that the server drops on the way is reset, and skipped here.
             let Ok(Ok(bytes)) = timeout(2 * MAX_FRAME_AGE, stream.read_to_end(MAX_FRAME)).await else { return };
-            match decode_frame(&bytes) {
+            match Frame::from_bytes(&bytes) {
                 Ok((frame, said)) => {
                     if received.stats().note(&frame, said, bytes.len()) {
                         // Dropped when the application does not fetch frames in time.

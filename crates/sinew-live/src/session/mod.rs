@@ -12,8 +12,8 @@
 //!
 //! A command is applied, and recorded in the take, in the step that begins after it arrived. A frame holds all bits of
 //! the pose and velocity of every body, so that every client computes [`Frame::hash`](sinew_world::Frame::hash) itself;
-//! the hashes of one step are equal everywhere. A client that joins late receives the scene with all its files, and
-//! with the next frame the whole state.
+//! the hashes of one step are equal everywhere. [`frame_bytes`](sinew_world::frame_bytes) documents the layout. A client
+//! that joins late receives the scene with all its files, and with the next frame the whole state.
 //!
 //! The stage never waits for the network: requests wait in a bounded queue, and only the newest frame is offered.
 //! [`limits`] bounds what one client may send, receive or hold open, so that a slow or hostile client harms only
@@ -26,7 +26,6 @@ mod client_connection;
 mod client_datagram;
 mod client_stats;
 mod error;
-mod frame_code;
 pub mod limits;
 mod link;
 mod message;
@@ -45,7 +44,6 @@ pub use client::Client;
 pub use client_datagram::ClientDatagram;
 pub use client_stats::{ClientStats, ConnectionState, SentRequest, note_hash};
 pub use error::{Refusal, SessionError};
-pub use frame_code::{decode_frame, encode_frame};
 pub use limits::PROTOCOL;
 pub use message::{ClientMessage, Hello, ServerMessage, Welcome};
 pub use permit::permit;

@@ -1,6 +1,5 @@
 //! The stage's side of a session. It is used on the stage's own thread and never blocks.
 
-use super::frame_code::encode_frame;
 use super::limits::MAX_REQUESTS_PER_STEP;
 use sinew_control::Command;
 use sinew_world::Frame;
@@ -128,8 +127,7 @@ impl StageQueue {
     pub fn publish(&mut self, frame: &Frame) {
         let mut buffer = self.free_buffer();
         if let Some(bytes) = Arc::get_mut(&mut buffer) {
-            bytes.clear();
-            encode_frame(frame, bytes);
+            frame.write(bytes);
         }
         if self.buffers.len() < MAX_BUFFERS {
             self.buffers.push(Arc::clone(&buffer));

@@ -23,10 +23,6 @@ impl<'a> Reader<'a> {
         Ok(u8::from_le_bytes(self.array()?))
     }
 
-    pub(super) fn u16(&mut self) -> Result<u16, Malformed> {
-        Ok(u16::from_le_bytes(self.array()?))
-    }
-
     pub(super) fn i32(&mut self) -> Result<i32, Malformed> {
         Ok(i32::from_le_bytes(self.array()?))
     }
@@ -39,20 +35,6 @@ impl<'a> Reader<'a> {
     pub(super) fn f64(&mut self) -> Result<f64, Malformed> {
         let number = f64::from_le_bytes(self.array()?);
         if number.is_finite() { Ok(number) } else { Err(Malformed("a number is not finite")) }
-    }
-
-    pub(super) fn bool(&mut self) -> Result<bool, Malformed> {
-        match self.u8()? {
-            0 => Ok(false),
-            1 => Ok(true),
-            _ => Err(Malformed("a yes or no is neither")),
-        }
-    }
-
-    /// A count, no larger than allowed.
-    pub(super) fn count(&mut self, max: usize) -> Result<usize, Malformed> {
-        let count = usize::from(self.u16()?);
-        if count <= max { Ok(count) } else { Err(Malformed("it counts more than is allowed")) }
     }
 
     pub(super) fn end(&self) -> Result<(), Malformed> {
