@@ -3,7 +3,7 @@
 use crate::{Scene, Stage, StageError};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
-use sinew_world::{CharacterId, Frame, PartShape, Solid};
+use sinew_world::{CharacterFrame, CharacterId, Frame, PartShape, PropId, Solid};
 
 /// A run at the motion rate.
 #[derive(Clone, Debug, Default)]
@@ -104,13 +104,31 @@ impl Recording {
         self.push_frame(stage.world().frame());
     }
 
-    /// Records a frame; parts keep the shapes of the previous frame.
+    /// Records a frame; parts keep the shapes of the previous frame. What is no longer there, its slot vacant or used by another,
+    /// keeps its last place.
+    ///
+    /// ```
+    /// use sinew_stage::{Recording, Scene, Stage};
+    /// use sinew_world::BodyState;
+    /// let scene = Scene::from_text("format = 1\n[props.ball]\nball_radius_m = 0.1\nmass_kg = 1\nposition_m = [0, 1, 0]")?;
+    /// let mut recording = Recording::of_scene(&scene)?;
+    /// let mut frame = Stage::new(scene, None)?.frame().clone();
+    /// recording.push_frame(&frame);
+    /// (frame.props[0], frame.prop_ids[0]) = (BodyState::REST, None);
+    /// recording.push_frame(&frame);
+    /// assert_eq!(recording.props[0].places[1].0.y, 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn push_frame(&mut self, frame: &Frame) {
-        for (character, seen) in self.characters.iter_mut().zip(&frame.characters) {
-            character.poses.push(seen.pose());
+        for (slot, character) in self.characters.iter_mut().enumerate() {
+            let seen = frame.character(CharacterId::first_in(slot)).map(CharacterFrame::pose);
+            let pose = seen.or_else(|| character.poses.last().cloned()).unwrap_or(Pose::STANDING);
+            character.poses.push(pose);
         }
-        for (prop, seen) in self.props.iter_mut().zip(&frame.props) {
-            prop.places.push((seen.position, seen.rotation));
+        for (slot, prop) in self.props.iter_mut().enumerate() {
+            let seen = frame.prop(PropId::first_in(slot)).map(|seen| (seen.position, seen.rotation));
+            let place = seen.or_else(|| prop.places.last().copied()).unwrap_or_default();
+            prop.places.push(place);
         }
         self.frames += 1;
     }

@@ -31,7 +31,7 @@ impl ReachWatch {
             (self.number, self.meter) = (reach.number, ReachMeter::default());
             self.count += 1;
         }
-        let pose = stage.frame().characters[character.slot()].pose();
+        let Some(pose) = stage.frame().character(character).map(|seen| seen.pose()) else { return };
         let now = ReachFrame { secs: reach.now_secs, goal: reach.goal, pose };
         self.meter.watch(reach.reacher, body, &now, 1.0 / f64::from(spec.motion_hz));
         if self.count > MAX_REACHES {

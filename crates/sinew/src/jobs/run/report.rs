@@ -7,7 +7,7 @@ use crate::jobs::reach::ReachReport;
 use serde::Serialize;
 use sinew_live::Performers;
 use sinew_stage::{Event, Observer, Stage};
-use sinew_world::Entity;
+use sinew_world::{CharacterId, Entity};
 use std::collections::BTreeMap;
 
 /// The report of `sinew run` and `sinew replay`. Keys carry their units.
@@ -104,10 +104,11 @@ impl RunReport {
         self.events_dropped = stage.events().dropped();
         self.actors = actors::of(stage);
         for (index, character) in self.characters.values_mut().enumerate() {
-            let seen = &frame.characters[index];
-            character.hips_height_end_m = seen.parts[0].position.y;
-            character.centre_end_m = seen.centre_of_mass.into();
-            character.com_margin_end_m = seen.support_margin_m();
+            if let Some(seen) = frame.character(CharacterId::first_in(index)) {
+                character.hips_height_end_m = seen.parts[0].position.y;
+                character.centre_end_m = seen.centre_of_mass.into();
+                character.com_margin_end_m = seen.support_margin_m();
+            }
             character.pins = character.meters[0].report();
             character.held = character.meters[1].report();
         }

@@ -66,8 +66,9 @@ impl View {
     pub fn push(&mut self, frame: &Frame) {
         let first = *self.first_step.get_or_insert(frame.step);
         let place = frame.step.saturating_sub(first) / self.steps_per_frame;
-        let is_whole = frame.characters.len() == self.recording.characters.len()
-            && frame.props.len() == self.recording.props.len();
+        // What is in later slots was added after the scene was built.
+        let is_whole = frame.characters.len() >= self.recording.characters.len()
+            && frame.props.len() >= self.recording.props.len();
         while is_whole && self.recording.frames as u64 <= place && self.recording.frames < MAX_FRAMES {
             self.recording.push_frame(frame);
         }
