@@ -9,9 +9,11 @@
 
 use std::fmt;
 
-/// What [`Slots`](crate::slots::Slots) are addressed by.
-pub(crate) trait Id: Copy + Eq {
+/// What [`Slots`](crate::Slots) are addressed by: one of the ids of this crate.
+pub trait SlotId: Copy + Eq {
+    /// The id of a slot and a generation.
     fn of(slot: usize, generation: u32) -> Self;
+    /// Its slot and its generation.
     fn place(self) -> (usize, u32);
 }
 
@@ -63,7 +65,7 @@ macro_rules! id {
             }
         }
 
-        impl Id for $name {
+        impl SlotId for $name {
             fn of(slot: usize, generation: u32) -> $name {
                 $name::new(slot, generation)
             }

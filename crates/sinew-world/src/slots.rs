@@ -1,24 +1,36 @@
 //! A list whose places are used again.
 
-use crate::id::Id;
+use crate::id::SlotId;
 use std::marker::PhantomData;
 
 /// Values by slot. A value that is removed leaves its slot vacant; the next that is inserted takes the first vacant slot, under
-/// the slot's next generation.
-#[derive(Clone)]
-pub(crate) struct Slots<I, T> {
+/// the slot's next generation. Two of them to which the same is done give the same ids: so names can be kept beside a
+/// [`World`](crate::World).
+///
+/// ```
+/// use sinew_world::{PropId, Slots};
+/// let mut names = Slots::<PropId, &str>::new();
+/// let ball = names.insert("ball");
+/// assert_eq!(names.remove(ball), Some("ball"));
+/// let club = names.insert("club");
+/// assert_eq!((club.slot(), club.generation()), (0, 1));
+/// assert_eq!((names.get(ball), names.get(club)), (None, Some(&"club")));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Slots<I, T> {
     slots: Vec<Slot<T>>,
     ids: PhantomData<I>,
 }
 
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Slot<T> {
     /// Of the value that is there, or of the next.
     generation: u32,
     value: Option<T>,
 }
 
-impl<I: Id, T> Slots<I, T> {
+impl<I: SlotId, T> Slots<I, T> {
+    /// Without any slot.
     pub const fn new() -> Slots<I, T> {
         Slots { slots: Vec::new(), ids: PhantomData }
     }
@@ -34,6 +46,7 @@ impl<I: Id, T> Slots<I, T> {
         I::of(slot, self.slots.get(slot).map_or(0, |slot| slot.generation))
     }
 
+    /// Puts a value into the first vacant slot.
     pub fn insert(&mut self, value: T) -> I {
         let id = self.next_id();
         let (slot, generation) = id.place();
@@ -45,6 +58,7 @@ impl<I: Id, T> Slots<I, T> {
         id
     }
 
+    /// Takes a value out; `None` for a stale id.
     pub fn remove(&mut self, id: I) -> Option<T> {
         let (slot, generation) = id.place();
         let slot = self.slots.get_mut(slot).filter(|slot| slot.generation == generation)?;
@@ -53,11 +67,13 @@ impl<I: Id, T> Slots<I, T> {
         Some(value)
     }
 
+    /// The value of an id; `None` for a stale one.
     pub fn get(&self, id: I) -> Option<&T> {
         let (slot, generation) = id.place();
         self.slots.get(slot).filter(|slot| slot.generation == generation)?.value.as_ref()
     }
 
+    /// The value of an id, to change it; `None` for a stale one.
     pub fn get_mut(&mut self, id: I) -> Option<&mut T> {
         let (slot, generation) = id.place();
         self.slots.get_mut(slot).filter(|slot| slot.generation == generation)?.value.as_mut()
@@ -78,6 +94,12 @@ impl<I: Id, T> Slots<I, T> {
     pub fn id_in(&self, slot: usize) -> Option<I> {
         let found = self.slots.get(slot)?;
         found.value.is_some().then(|| I::of(slot, found.generation))
+    }
+}
+
+impl<I: SlotId, T> Default for Slots<I, T> {
+    fn default() -> Slots<I, T> {
+        Slots::new()
     }
 }
 

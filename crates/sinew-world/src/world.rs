@@ -265,6 +265,18 @@ impl World {
         }
     }
 
+    /// Gravity of the world, as [`WorldSettings::gravity_m_s2`], from the next step on. Wakes everything. Ignored when not finite.
+    pub fn set_world_gravity(&mut self, gravity_m_s2: f64) {
+        if !gravity_m_s2.is_finite() {
+            return;
+        }
+        self.settings = sanitize::settings(WorldSettings { gravity_m_s2, ..self.settings });
+        self.engine.gravity = DVec3::new(0.0, -self.settings.gravity_m_s2, 0.0);
+        for (_, body) in self.engine.bodies.iter_mut() {
+            body.wake_up(true);
+        }
+    }
+
     /// Factor on gravity for all parts of a character.
     pub fn set_gravity(&mut self, character: CharacterId, scale: f64) {
         if self.characters.get(character).is_none() {

@@ -1,4 +1,4 @@
-//! Nothing that is stated from outside makes the world panic, hang or hand out a number that is none.
+//! Nothing that is stated from outside makes the world panic, hang or return NaN or infinity.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{adult, hold, spec, standing, steps, supine};
