@@ -1,10 +1,10 @@
-//! Between Python's objects and our numbers.
+//! Conversion of arguments: Python objects to numbers and vectors, and vectors back.
 
 use super::interpreter;
 use rustpython_vm::builtins::{PyFloat, PyInt, PyList, PyTuple};
 use rustpython_vm::{PyObject, PyObjectRef, PyPayload, PyResult, VirtualMachine};
 
-/// What is wrong, as Python's ValueError.
+/// Maps an error to Python's `ValueError`.
 pub(super) fn raised<T>(vm: &VirtualMachine, result: Result<T, String>) -> PyResult<T> {
     result.map_err(|message| vm.new_value_error(message))
 }
@@ -25,7 +25,7 @@ pub(super) fn number(vm: &VirtualMachine, value: &PyObject, what: &str) -> PyRes
     }
 }
 
-/// A finite number from 0 up, if one is given.
+/// A finite number, at least 0, if one is given.
 pub(super) fn seconds(vm: &VirtualMachine, value: Option<&PyObjectRef>) -> PyResult<Option<f64>> {
     let Some(value) = value else { return Ok(None) };
     let secs = number(vm, value, "seconds")?;

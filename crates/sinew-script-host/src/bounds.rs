@@ -1,4 +1,4 @@
-//! What the process may not do any more: the kernel holds it to that, whatever the script finds in the interpreter.
+//! The sandbox of the process: the kernel enforces it, whatever the script finds in the interpreter.
 
 use sinew_script::Limits;
 use std::io;
@@ -33,7 +33,7 @@ pub(super) fn give_up_rights(_limits: &Limits) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// What the process has reserved so far \[bytes\].
+/// Memory that the process has reserved so far \[bytes\].
 #[cfg(target_os = "linux")]
 fn address_space() -> io::Result<u64> {
     let text = std::fs::read_to_string("/proc/self/statm")?;

@@ -1,4 +1,4 @@
-//! The object `skeleton` and others of its kind: what they sense is in `sense.rs`, what they do in `drive.rs`.
+//! The Python class of `skeleton` and other characters: its queries are in `sense.rs`, its commands in `drive.rs`.
 
 pub(super) use character::{Character, module_def};
 
@@ -207,7 +207,7 @@ pub(super) mod character {
         }
     }
 
-    /// A character as Python's object.
+    /// The Python object of a character.
     pub(crate) fn object(vm: &VirtualMachine, place: usize) -> PyObjectRef {
         Character { place }.into_pyobject(vm)
     }

@@ -1,4 +1,4 @@
-//! Where `print` goes.
+//! Standard output of a script: `print` is captured for the reply.
 
 pub(super) use console::{Console, module_def};
 

@@ -1,27 +1,27 @@
-//! The script's own object: made from its class, asked for every step.
+//! The controller: the instance of the script's class, called in every step.
 
 use super::state::{self, Defined, Kept};
 use super::{fault, words};
 use rustpython_vm::builtins::{PyDictRef, PyType};
 use rustpython_vm::compiler::Mode;
 use rustpython_vm::{PyObjectRef, PyResult, VirtualMachine};
-use sinew_script::ScriptError;
+use sinew_script::{ScriptError, ScriptErrorKind};
 
 pub(super) struct Controller {
     file: String,
     class: String,
     pub instance: PyObjectRef,
-    /// The variables of its text, and what the text defines.
+    /// The global variables of its module, and the names that the text defines.
     pub globals: PyDictRef,
     pub defined: Defined,
-    /// What `start()` or `reload()` is still to be called with: the object before this one, if there was one.
+    /// Set while `start()` or `reload()` is still to be called; holds the previous instance, if there was one.
     pub before: Option<Option<PyObjectRef>>,
-    /// An exception left it: it is not called any more.
+    /// An exception was raised: it is no longer called.
     pub is_stopped: bool,
 }
 
 impl Controller {
-    /// Reads a text and makes an object of its class.
+    /// Compiles a text and creates an instance of its class.
     pub fn load(vm: &VirtualMachine, source: &str, file: &str, class: &str) -> Result<Controller, ScriptError> {
         let (instance, globals, defined) = instance(vm, source, file, class)?;
         Ok(Controller {
@@ -35,7 +35,7 @@ impl Controller {
         })
     }
 
-    /// Goes on with another text; with the one so far when it is wrong.
+    /// Continues with another text; with the present one if the new one is invalid.
     pub fn reload(&mut self, vm: &VirtualMachine, source: &str) -> Result<(), ScriptError> {
         let new;
         (new, self.globals, self.defined) = instance(vm, source, &self.file, &self.class)?;
@@ -44,7 +44,7 @@ impl Controller {
         Ok(())
     }
 
-    /// Has a text read and an object made of it, and gives it a state that was kept.
+    /// Compiles a text, creates the instance and restores a saved state.
     pub fn restore(&mut self, vm: &VirtualMachine, source: &str, kept: Option<&Kept>) -> Result<(), ScriptError> {
         *self = Controller::load(vm, source, &self.file, &self.class)?;
         let Some(kept) = kept else { return Ok(()) };
@@ -76,7 +76,7 @@ impl Controller {
     }
 }
 
-/// An object of the class, the variables of the text, and what it defines.
+/// An instance of the class, the global variables of the text, and the names that it defines.
 fn instance(
     vm: &VirtualMachine,
     source: &str,
@@ -86,7 +86,8 @@ fn instance(
     let code = vm
         .compile(source, Mode::Exec, file.to_owned())
         .map_err(|error| fault::of_compiler(vm, &error, source, file))?;
-    let wrong = |message: String| ScriptError { file: file.to_owned(), line: None, message };
+    let wrong =
+        |message: String| ScriptError { kind: ScriptErrorKind::Text, file: file.to_owned(), line: None, message };
     let raised = |exception| fault::of_exception(vm, &exception, file);
     let scope = vm.new_scope_with_builtins();
     words::offer(vm, &scope.globals).map_err(raised)?;

@@ -1,4 +1,4 @@
-//! What a script can do with props and their joints.
+//! Functions for props and their joints.
 
 pub(super) use devices::module_def;
 

@@ -1,4 +1,4 @@
-//! What a script can do with its character: each word becomes one command.
+//! Commands of a script to its character: each function sends one command.
 
 use super::arguments::{number, raised, seconds, three};
 use super::stage::{self, Stage, one_of};
@@ -127,7 +127,7 @@ pub(super) struct Switch {
     on: bool,
 }
 
-/// Makes the command and sends it.
+/// Builds the command and sends it.
 pub(super) fn act(
     vm: &VirtualMachine,
     place: usize,
@@ -194,7 +194,7 @@ pub(super) fn detach(vm: &VirtualMachine, place: usize, let_go: LetGo) -> PyResu
     })
 }
 
-/// The name of what is held, empty for whatever is near.
+/// The name of the held object; empty for the nearest one.
 fn some_holdable(stage: &Stage, place: usize, name: Option<PyUtf8StrRef>) -> Result<String, String> {
     name.map_or(Ok(String::new()), |name| holdable(stage, place, name.as_str()))
 }

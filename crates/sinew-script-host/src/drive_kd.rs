@@ -1,4 +1,4 @@
-//! What a script can say to the tracker `kd`.
+//! Commands of a script to the tracker `kd`.
 
 use super::arguments::{raised, seconds};
 use super::drive::{act, at_least_zero, parts};

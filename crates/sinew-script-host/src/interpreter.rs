@@ -1,4 +1,4 @@
-//! A Python with nothing in it but what a controller needs.
+//! The interpreter, reduced to what a controller needs.
 
 use super::{character, console, devices, maths, random, words};
 use rustpython_vm::builtins::PyTypeRef;
@@ -7,17 +7,17 @@ use rustpython_vm::compiler::Mode;
 use rustpython_vm::{Interpreter, InterpreterBuilder, PyPayload, PyResult, Settings, VirtualMachine};
 use std::cell::OnceCell;
 
-/// What Python code of ours adds: vectors, and the gate before imports.
+/// Our Python prelude: vectors, and the filter of imports.
 const PRELUDE: &str = include_str!("prelude.py");
 
 /// Parts of RustPython that a controller does not need. Without `host_env` it has no files, sockets, processes or signals to
 /// begin with; these hold a clock and ways to run bytes as code.
 const REMOVED: [&str; 6] = ["time", "marshal", "atexit", "_symtable", "gc", "errno"];
 
-/// Built-in functions without use here.
+/// Built-in functions that are removed.
 const REMOVED_FUNCTIONS: [&str; 3] = ["open", "input", "breakpoint"];
 
-/// Nested calls, as in other Pythons.
+/// Maximum call depth, as in CPython.
 const NESTING: usize = 1000;
 
 thread_local! {

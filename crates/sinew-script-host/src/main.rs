@@ -31,8 +31,8 @@ mod words;
 
 use controller::Controller;
 use rustpython_vm::VirtualMachine;
-use sinew_script::ScriptError;
 use sinew_script::protocol::{self, Asked, MAX_REQUEST, Reply};
+use sinew_script::{ScriptError, ScriptErrorKind};
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::process::ExitCode;
@@ -90,6 +90,10 @@ fn serve(vm: &VirtualMachine) -> io::Result<()> {
                 Some(controller) => controller.reload(vm, &source).err(),
                 None => None,
             },
+            Asked::Names(names) => {
+                stage::with(|stage| stage.rename(*names));
+                None
+            }
             Asked::Save => {
                 if let Some(controller) = &controller {
                     (kept, lost) = state_of(vm, controller)?;
@@ -98,7 +102,12 @@ fn serve(vm: &VirtualMachine) -> io::Result<()> {
             }
             Asked::Restore(source, bytes) => match (&mut controller, kept_state(&bytes)) {
                 (Some(controller), Ok(kept)) => controller.restore(vm, &source, kept.as_ref()).err(),
-                _ => Some(ScriptError { file: String::new(), line: None, message: "the kept state is broken".into() }),
+                _ => Some(ScriptError {
+                    kind: ScriptErrorKind::State,
+                    file: String::new(),
+                    line: None,
+                    message: "the kept state is broken".into(),
+                }),
             },
         };
         drop(bytes);
@@ -106,7 +115,7 @@ fn serve(vm: &VirtualMachine) -> io::Result<()> {
     }
 }
 
-/// Standard output as a plain file: nothing is to be held back in it.
+/// Standard output as an unbuffered file.
 fn output() -> io::Result<File> {
     #[cfg(unix)]
     {
@@ -117,7 +126,7 @@ fn output() -> io::Result<File> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// A script's state as bytes; one that is too long is lost as a whole.
+/// A script's state as bytes; empty if it is too long.
 fn state_of(vm: &VirtualMachine, controller: &Controller) -> io::Result<(Vec<u8>, Vec<String>)> {
     let (kept, lost) = state::save(vm, controller);
     let bytes = postcard::to_stdvec(&kept).map_err(io::Error::other)?;
@@ -128,7 +137,7 @@ fn state_of(vm: &VirtualMachine, controller: &Controller) -> io::Result<(Vec<u8>
     Ok((bytes, lost))
 }
 
-/// What bytes of a state say; `None` of a state that was lost.
+/// Decodes a state; `None` for an empty one.
 fn kept_state(bytes: &[u8]) -> io::Result<Option<state::Kept>> {
     if bytes.is_empty() { Ok(None) } else { postcard::from_bytes(bytes).map(Some).map_err(io::Error::other) }
 }
@@ -140,10 +149,10 @@ fn answer(output: &mut File, error: Option<ScriptError>, state: Vec<u8>, lost: V
     output.write_all(&bytes)
 }
 
-/// Characters that are kept of a printed line, a word to say or a signal.
+/// Maximum length of a printed line, a spoken line or a signal \[characters\].
 const MAX_TEXT: usize = 300;
 
-/// Cuts a text after some characters.
+/// Truncates a text to a number of characters.
 fn cut(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}...", &text[..end]),

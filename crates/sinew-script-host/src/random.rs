@@ -1,4 +1,4 @@
-//! The module `random`: numbers that follow from the scene's seed.
+//! The module `random`: pseudo-random numbers from the scene's seed.
 
 pub(super) use random::module_def;
 
@@ -36,7 +36,7 @@ pub(super) mod random {
         a + (b - a) * next()
     }
 
-    /// Box and Muller's pair, of which the second is not kept: a seed stands for everything.
+    /// Normal distribution by Box and Muller; the second number of each pair is dropped, so that the seed is the whole state.
     #[pyfunction]
     fn gauss(mu: ArgIntoFloat, sigma: ArgIntoFloat) -> f64 {
         let (length, angle) = (next(), next());

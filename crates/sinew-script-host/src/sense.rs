@@ -1,4 +1,4 @@
-//! What a script can know of a character.
+//! Queries about characters: positions, velocities, contacts.
 
 use super::arguments::{raised, vector, vectors};
 use super::character::Character;
@@ -79,7 +79,7 @@ pub(super) fn is_attached(vm: &VirtualMachine, place: usize, link: &str, object:
     raised(vm, attached)
 }
 
-/// Whether the character touches something, or anything that is no part of itself.
+/// Whether the character touches a thing; without one, anything but itself.
 pub(super) fn is_touching(vm: &VirtualMachine, place: usize, other: Other) -> PyResult<bool> {
     match other.other {
         Some(other) => {
@@ -106,7 +106,7 @@ pub(super) fn touch(stage: &Stage, one: Found, other: Found) -> Result<bool, Str
     }))
 }
 
-/// What an argument stands for: a name, or `skeleton` and its kind.
+/// Resolves an argument: a name, or a character object.
 pub(super) fn found(vm: &VirtualMachine, value: &PyObject) -> PyResult<Found> {
     if let Some(character) = value.downcast_ref::<Character>() {
         return Ok(Found::Character(character.place));

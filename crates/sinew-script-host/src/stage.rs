@@ -1,4 +1,4 @@
-//! What the words of a script act on. One per process, in the thread of the interpreter.
+//! The state behind the functions of a script: names, snapshot, commands. One per process, in the interpreter's thread.
 
 use super::{MAX_TEXT, cut};
 use sinew_control::{Action, Command};
@@ -18,7 +18,7 @@ pub(super) struct Stage {
     /// State of the random numbers.
     pub random: u64,
     limits: Limits,
-    /// There is something to sense and somebody who listens.
+    /// Inside `start()` or `step()`: a snapshot is there and commands are accepted.
     is_stepping: bool,
     commands: Vec<Command>,
     printed: Vec<String>,
@@ -28,7 +28,7 @@ pub(super) struct Stage {
     unprinted: usize,
 }
 
-/// What a name stands for.
+/// A resolved name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Found {
     Character(usize),
@@ -39,19 +39,19 @@ thread_local! {
     static STAGE: RefCell<Stage> = RefCell::new(Stage::new(&StartInfo::default(), Limits::default()));
 }
 
-/// Before any text is read.
+/// Called before any text is compiled.
 pub(super) fn set_up(info: &StartInfo, limits: Limits) {
     STAGE.set(Stage::new(info, limits));
 }
 
-/// Nothing inside may call Python.
+/// Borrows the state; the closure must not call Python.
 pub(super) fn with<R>(use_it: impl FnOnce(&mut Stage) -> R) -> R {
     STAGE.with_borrow_mut(use_it)
 }
 
 /// "there is no pose 'Hop'; there are: Stand, Walk".
 fn unknown<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> String {
-    let known: Vec<&str> = known.collect();
+    let known: Vec<&str> = known.filter(|known| !known.is_empty()).collect();
     let name = cut(name, 60);
     if known.is_empty() {
         return format!("there is no {kind} '{name}': the scene has none");
@@ -62,11 +62,9 @@ fn unknown<'a>(kind: &str, name: &str, known: impl Iterator<Item = &'a str>) -> 
 
 impl Stage {
     fn new(info: &StartInfo, limits: Limits) -> Stage {
-        let own = info.names.characters.iter().position(|character| character.name == info.own);
         Stage {
             names: info.names.clone(),
-            // A script that nobody was named for gets the first character.
-            own: own.or_else(|| (!info.names.objects.contains(&info.own)).then_some(0)),
+            own: own(&info.names, &info.own),
             me: info.own.clone(),
             snapshot: Snapshot::default(),
             random: info.seed,
@@ -77,6 +75,12 @@ impl Stage {
             line: String::new(),
             unprinted: 0,
         }
+    }
+
+    /// Replaces the names: the scene was edited.
+    pub fn rename(&mut self, names: Names) {
+        self.own = own(&names, &self.me);
+        self.names = names;
     }
 
     /// A step begins.
@@ -90,7 +94,7 @@ impl Stage {
         self.is_stepping = false;
     }
 
-    /// What the answer holds.
+    /// Takes the commands and printed lines for the reply.
     pub fn take(&mut self) -> (Vec<Command>, Vec<String>) {
         if !self.line.is_empty() {
             self.end_line();
@@ -125,7 +129,7 @@ impl Stage {
         }
     }
 
-    /// Whether there is something to sense.
+    /// Checks that the script is inside `start()` or `step()`.
     pub fn ready(&self) -> Result<(), String> {
         if self.is_stepping {
             Ok(())
@@ -155,7 +159,9 @@ impl Stage {
     /// A character's state now.
     pub fn character(&self, place: usize) -> Result<&CharacterState, String> {
         self.ready()?;
-        self.snapshot.characters.get(place).ok_or_else(|| "the scene has no character for this script".to_owned())
+        let is_there = self.names.characters.get(place).is_some_and(|names| !names.name.is_empty());
+        let seen = self.snapshot.characters.get(place).filter(|_| is_there);
+        seen.ok_or_else(|| "the scene has no character for this script, or has it no more".to_owned())
     }
 
     /// The place of a part by its name or alias.
@@ -182,7 +188,8 @@ impl Stage {
     /// The place of a character by its name.
     pub fn character_place(&self, name: &str) -> Result<usize, String> {
         let names = || self.names.characters.iter().map(|character| character.name.as_str());
-        names().position(|known| known == name).ok_or_else(|| unknown("character", name, names()))
+        let place = names().position(|known| known == name).filter(|_| !name.is_empty());
+        place.ok_or_else(|| unknown("character", name, names()))
     }
 
     /// The place of a prop by its name.
@@ -196,7 +203,7 @@ impl Stage {
         known.ok_or_else(|| unknown("joint", name, self.names.joints.iter().map(|joint| joint.name.as_str())))
     }
 
-    /// What a name stands for: the ground, a prop, a character, `character.part`, or a part of the own character.
+    /// Resolves a name: the ground, a prop, a character, `character.part`, or a part of the own character.
     pub fn find(&self, name: &str) -> Result<Found, String> {
         if name == "ground" {
             return Ok(Found::Thing(Thing::Ground));
@@ -224,7 +231,7 @@ impl Stage {
         Err(unknown("object, character or part", name, known.chain(parts)))
     }
 
-    /// Whether a thing is what was found, or part of it.
+    /// Whether a thing is the resolved one, or a part of it.
     pub fn is(thing: Thing, found: Found) -> bool {
         match found {
             Found::Thing(other) => thing == other,
@@ -232,7 +239,7 @@ impl Stage {
         }
     }
 
-    /// What a thing is called: its own name and, for a part, the part's.
+    /// The name of a thing and, for a part, the part's name.
     pub fn called(&self, thing: Thing) -> (String, Option<String>) {
         let name = |names: &[String], place: usize| names.get(place).cloned().unwrap_or_default();
         match thing {
@@ -248,5 +255,13 @@ impl Stage {
 
 /// The place of a name among the known ones.
 pub(super) fn one_of(kind: &str, name: &str, known: &[String]) -> Result<usize, String> {
-    known.iter().position(|known| known == name).ok_or_else(|| unknown(kind, name, known.iter().map(String::as_str)))
+    // An empty name is that of a vacant slot.
+    let place = known.iter().position(|known| known == name).filter(|_| !name.is_empty());
+    place.ok_or_else(|| unknown(kind, name, known.iter().map(String::as_str)))
+}
+
+/// The index of the character that a script controls; the first one if the script names none.
+fn own(names: &Names, me: &str) -> Option<usize> {
+    let own = names.characters.iter().position(|character| character.name == me);
+    own.or_else(|| (!names.objects.iter().any(|object| object == me)).then_some(0))
 }

@@ -1,4 +1,4 @@
-//! What is kept of a script: the attributes of its object and of its classes, and the variables of its text.
+//! Saved state of a script: the attributes of its instance and of its classes, and its global variables.
 //!
 //! Kept are `None`, bools, ints, floats, strings, lists, tuples, dicts, vectors, objects of the script's own classes and bound methods
 //! of such objects; names that the text itself defines (functions, classes, modules) are kept as names. What two names share
@@ -14,13 +14,13 @@ use rustpython_vm::{AsObject, PyObject, PyObjectRef, PyResult, TryFromObject, Vi
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Values of one script that are kept.
+/// Maximum number of saved values of one script.
 const MAX_VALUES: usize = 100_000;
 
-/// Lost names that are told.
+/// Maximum number of reported names that could not be saved.
 const MAX_LOST: usize = 20;
 
-/// Everything that is kept of a script.
+/// The saved state.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Kept {
     random: u64,
@@ -38,7 +38,7 @@ struct Space {
     names: Vec<(String, Option<u32>)>,
 }
 
-/// A value; others are meant by their place in the table.
+/// A value; refers to others by their index in the table.
 #[derive(Clone, Serialize, Deserialize)]
 enum Value {
     None,
@@ -181,7 +181,7 @@ struct Saver<'a> {
     places: BTreeMap<usize, u32>,
     /// The place of each text: which of them are one object is Python's own affair.
     texts: BTreeMap<String, u32>,
-    /// Keeps what the table knows by identity alive.
+    /// Keeps objects alive whose identity the table uses.
     held: Vec<PyObjectRef>,
     lost: Vec<String>,
 }
@@ -201,7 +201,7 @@ impl Saver<'_> {
         Space { class, names }
     }
 
-    /// Keeps a value with all that hangs from it; else says what cannot be kept and leaves the table as it was.
+    /// Saves a value with everything that it refers to; on failure names the obstacle and leaves the table unchanged.
     fn whole(&mut self, value: &PyObjectRef) -> Result<u32, String> {
         let (values, held) = (self.values.len(), self.held.len());
         let kept = self.keep(value);
@@ -226,7 +226,7 @@ impl Saver<'_> {
         Ok(first)
     }
 
-    /// The place of a value in the table; one that is not there yet gets one.
+    /// The index of a value in the table; adds it if it is new.
     fn place(&mut self, value: &PyObjectRef, to_do: &mut Vec<(u32, PyObjectRef)>) -> Result<u32, String> {
         if let Some(place) = self.places.get(&value.get_id()) {
             return Ok(*place);

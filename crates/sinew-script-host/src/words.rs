@@ -1,4 +1,4 @@
-//! The functions that a script finds beside `skeleton`.
+//! The global functions of a script.
 
 pub(super) use words::module_def;
 
@@ -34,7 +34,7 @@ const DEVICE_WORDS: [&str; 10] = [
     "isJointWhole",
 ];
 
-/// Puts everything that a script can say into its scope.
+/// Adds all functions and classes to a script's globals.
 pub(super) fn offer(vm: &VirtualMachine, globals: &PyDictRef) -> PyResult<()> {
     // Imported when the interpreter was made; the gate before imports is closed to them now.
     let words = vm.sys_module.get_attr("modules", vm)?.get_item("_words", vm)?;
@@ -69,7 +69,7 @@ pub(super) mod words {
         Ok(character::object(vm, place))
     }
 
-    /// Where something is and how it moves; a character's hips stand for it.
+    /// Position and motion of a thing; of a character, those of its hips.
     pub(crate) fn state(stage: &Stage, found: Found) -> Result<ObjectState, String> {
         stage.ready()?;
         let of_part = |character: usize, part: usize| {

@@ -34,7 +34,7 @@ mod script;
 mod snapshot;
 mod state;
 
-pub use error::ScriptError;
+pub use error::{ScriptError, ScriptErrorKind};
 pub use limits::Limits;
 pub use names::{CharacterNames, JointName, Names, StartInfo};
 pub use script::{Script, ScriptHost, StepOutcome};

@@ -1,16 +1,16 @@
 //! What a stage and the program `sinew-script-host` say to each other over the host's standard input and output: a length (four
 //! bytes, little-endian) and that many bytes of postcard. For the host program; everybody else uses [`Script`](crate::Script).
 
-use crate::{Limits, ScriptError, Snapshot, StartInfo};
+use crate::{Limits, Names, ScriptError, Snapshot, StartInfo};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io;
 
 /// Version of the messages; another one is refused by [`WRONG_VERSION`]. Raised by every change of a type that is sent.
-pub const VERSION: u32 = 1;
-/// The environment variable that tells the host the [`VERSION`] of whoever starts it.
+pub const VERSION: u32 = 2;
+/// The environment variable that tells the host the [`VERSION`] of the program that starts it.
 pub const VERSION_VARIABLE: &str = "SINEW_SCRIPT_PROTOCOL";
-/// The exit code of a host that was started by another [`VERSION`].
+/// The exit code of a host that was started with another [`VERSION`].
 pub const WRONG_VERSION: u8 = 3;
 /// Maximum length of a script's text \[bytes\].
 pub const MAX_SOURCE: usize = 1 << 20;
@@ -30,6 +30,8 @@ pub enum Request<'a> {
     Step(&'a Snapshot),
     /// Read another text and go on with a controller of it.
     Reload(&'a str),
+    /// Other names from now on: something came or went.
+    Names(&'a Names),
     /// Say what the controller's state is.
     Save,
     /// Read a text, make a controller of it, and give it a state that was said.
@@ -45,6 +47,8 @@ pub enum Asked {
     Step(Snapshot),
     /// Read another text and go on with a controller of it.
     Reload(String),
+    /// Other names from now on: something came or went.
+    Names(Box<Names>),
     /// Say what the controller's state is.
     Save,
     /// Read a text, make a controller of it, and give it a state that was said.

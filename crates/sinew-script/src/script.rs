@@ -3,7 +3,7 @@
 use crate::process::Process;
 use crate::protocol::{self, MAX_REQUEST, MAX_SOURCE, Reply, Request};
 use crate::state::ScriptState;
-use crate::{Limits, ScriptError, Snapshot, StartInfo};
+use crate::{Limits, Names, ScriptError, ScriptErrorKind as Kind, Snapshot, StartInfo};
 use sinew_control::Command;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -99,7 +99,7 @@ impl Script {
         if !snapshot.fits(&self.info.names) {
             self.is_running = false;
             return StepOutcome {
-                error: Some(self.error("the snapshot does not fit the names it was started with")),
+                error: Some(self.error(Kind::Names, "the snapshot does not fit the names that it knows")),
                 ..StepOutcome::default()
             };
         }
@@ -129,6 +129,23 @@ impl Script {
         self.read(Some(text))
     }
 
+    /// Other names from now on, such as those of a scene that was edited. Costs a round trip to the process, and the script sees nothing
+    /// of it.
+    ///
+    /// # Errors
+    /// When the process does not answer in time; it is killed then, as for a step.
+    pub fn set_names(&mut self, names: Names) -> Result<(), ScriptError> {
+        self.info.names = names;
+        let limit = self.host.limits.step();
+        if let Some(process) = self.process.as_mut()
+            && let Err(reason) = ask(process, &Request::Names(&self.info.names), limit, 0)
+        {
+            self.kill();
+            return Err(self.error(Kind::Host, &reason));
+        }
+        Ok(())
+    }
+
     /// What is kept of the script; [`Script::restore`] gives it back. Costs a round trip to the process, and the script sees nothing
     /// of it.
     ///
@@ -148,7 +165,7 @@ impl Script {
                 Ok((_, reply)) => (state.content, state.lost) = (reply.state, reply.lost),
                 Err(reason) => {
                     self.kill();
-                    return Err(self.error(&reason));
+                    return Err(self.error(Kind::Host, &reason));
                 }
             }
         }
@@ -170,11 +187,11 @@ impl Script {
             }
             let request = Request::Restore(&state.source, &state.content);
             let Some(process) = self.process.as_mut() else {
-                return Err(self.error("its process has ended"));
+                return Err(self.error(Kind::Host, "its process has ended"));
             };
             let error = match ask(process, &request, self.host.limits.startup(), 0) {
                 Ok((_, reply)) => reply.error,
-                Err(reason) => Some(self.error(&reason)),
+                Err(reason) => Some(self.error(Kind::Host, &reason)),
             };
             if let Some(error) = error {
                 self.kill();
@@ -202,14 +219,16 @@ impl Script {
     /// Has a text read: another one, or that of the start.
     fn read(&mut self, text: Option<&str>) -> Result<(), ScriptError> {
         if text.unwrap_or(&self.info.source).len() > MAX_SOURCE {
-            return Err(self.error(&format!("the text is longer than {MAX_SOURCE} bytes")));
+            return Err(self.error(Kind::TooLarge, &format!("the text is longer than {MAX_SOURCE} bytes")));
         }
         let before = text.map(|text| std::mem::replace(&mut self.info.source, text.to_owned()));
         let limits = self.host.limits;
         let is_old = self.process.is_some();
         let mut process = match self.process.take() {
             Some(process) => process,
-            None => Process::start(&self.host.program, &self.host.args).map_err(|reason| self.error(&reason))?,
+            None => {
+                Process::start(&self.host.program, &self.host.args).map_err(|reason| self.error(Kind::Host, &reason))?
+            }
         };
         let request = if is_old { Request::Reload(&self.info.source) } else { Request::Start(&self.info, limits) };
         match ask(&mut process, &request, limits.startup(), 0) {
@@ -232,13 +251,13 @@ impl Script {
             }
             Err(reason) => {
                 self.kill();
-                Err(self.error(&reason))
+                Err(self.error(Kind::Host, &reason))
             }
         }
     }
 
-    fn error(&self, message: &str) -> ScriptError {
-        ScriptError { file: self.info.file.clone(), line: None, message: message.to_owned() }
+    fn error(&self, kind: Kind, message: &str) -> ScriptError {
+        ScriptError { kind, file: self.info.file.clone(), line: None, message: message.to_owned() }
     }
 }
 
