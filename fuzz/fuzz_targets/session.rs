@@ -12,7 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
     let _ = ServerMessage::read(bytes);
     if let Ok(message) = ClientMessage::read(bytes) {
         let text = serde_json::to_vec(&message).unwrap();
-        assert_eq!(ClientMessage::read(&text), Ok(message));
+        assert!(ClientMessage::read(&text).is_ok_and(|again| again == message));
     }
     if let Some(token) = std::str::from_utf8(bytes).ok().and_then(|text| text.parse::<Token>().ok()) {
         assert_eq!(token.to_string().parse::<Token>(), Ok(token));

@@ -80,7 +80,7 @@ impl Perform {
             Some(path) => MotionFile::read(path, &self.reading.options())?,
             None => MotionFile::from_bvh(&sinew::stage::sample_walk_bvh()?, &self.reading.options())?,
         };
-        let player = ClipPlayer::new(&file, self.fps.unwrap_or(60.0)).map_err(anyhow::Error::msg)?;
+        let player = ClipPlayer::new(&file, self.fps.unwrap_or(60.0))?;
         let impairment = Impairment {
             delay_secs: self.delay / 1e3,
             jitter_secs: self.jitter / 1e3,
@@ -110,8 +110,7 @@ impl Perform {
             Some(path) => bytes_of(path, &Limits::default())?,
             None => sinew::stage::sample_walk_bvh()?,
         };
-        let player = RawPlayer::new(&String::from_utf8_lossy(&bytes)).map_err(anyhow::Error::msg);
-        let player = player
+        let player = RawPlayer::new(&String::from_utf8_lossy(&bytes))
             .with_context(|| self.clip.as_ref().map_or("the walk".to_owned(), |path| path.display().to_string()))?;
         let stream = TcpStream::connect(to);
         let mut stream =

@@ -1,5 +1,6 @@
 //! A clip as a performer: the datagrams that a performer of the clip would send, and when they arrive.
 
+use crate::PlayerError;
 use crate::impairment::Impairment;
 use crate::vmc::VmcFrame;
 use sinew_body::humanoid::{Body, Person, Pose, Reduction};
@@ -24,13 +25,13 @@ impl ClipPlayer {
     ///
     /// # Errors
     /// A rate out of range, or a file without a human body.
-    pub fn new(file: &MotionFile, hz: f64) -> Result<ClipPlayer, String> {
+    pub fn new(file: &MotionFile, hz: f64) -> Result<ClipPlayer, PlayerError> {
         if !(1.0..=1000.0).contains(&hz) {
-            return Err(format!("a rate of {hz} Hz is out of range; give 1 to 1000"));
+            return Err(PlayerError::Rate(hz));
         }
-        let humanoid = file.body_parts().map_err(|error| error.to_string())?;
+        let humanoid = file.body_parts().map_err(|error| PlayerError::Body(error.to_string()))?;
         let reduction = Reduction::new(&file.clip, humanoid, file.stature_m, Person::default());
-        let reduction = reduction.map_err(|error| error.to_string())?;
+        let reduction = reduction.map_err(|error| PlayerError::Body(error.to_string()))?;
         let skipped_secs = moves_from(&file.clip, humanoid) as f64 * file.clip.frame_time_secs();
         let clip = resample(&file.clip, hz);
         let first = ((skipped_secs * hz).ceil() as usize).min(clip.frames().saturating_sub(1));
@@ -43,9 +44,9 @@ impl ClipPlayer {
     ///
     /// # Errors
     /// No poses.
-    pub fn of_poses(body: Body, poses: Vec<Pose>, hz: f64) -> Result<ClipPlayer, String> {
+    pub fn of_poses(body: Body, poses: Vec<Pose>, hz: f64) -> Result<ClipPlayer, PlayerError> {
         if poses.is_empty() {
-            return Err("the clip has no frames".to_owned());
+            return Err(PlayerError::NoFrames);
         }
         Ok(ClipPlayer { body, poses, interval_secs: 1.0 / hz })
     }

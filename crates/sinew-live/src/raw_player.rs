@@ -1,5 +1,6 @@
 //! A BVH file as a motion capture suit that broadcasts raw BVH: the header, then line by line.
 
+use crate::PlayerError;
 use std::time::Duration;
 
 /// A BVH file, ready to be sent to a port for [`raw`](crate::raw) streams.
@@ -24,20 +25,19 @@ impl RawPlayer {
     ///
     /// # Errors
     /// A text without hierarchy, frame time or frames.
-    pub fn new(text: &str) -> Result<RawPlayer, String> {
+    pub fn new(text: &str) -> Result<RawPlayer, PlayerError> {
         let mut lines = text.lines().map(str::trim);
         let hierarchy: Vec<&str> = lines.by_ref().take_while(|line| !line.eq_ignore_ascii_case("MOTION")).collect();
         if !hierarchy.first().is_some_and(|line| line.eq_ignore_ascii_case("HIERARCHY")) {
-            return Err("the text is not BVH, which begins with HIERARCHY".to_owned());
+            return Err(PlayerError::NotBvh);
         }
         let (heads, rows): (Vec<&str>, Vec<&str>) =
             lines.filter(|line| !line.is_empty()).partition(|line| line.contains(':'));
         let secs =
             heads.iter().find_map(|line| line.strip_prefix("Frame Time:")).and_then(|secs| secs.trim().parse().ok());
-        let secs: f64 =
-            secs.filter(|secs| (1e-4..1.0).contains(secs)).ok_or("it states no Frame Time from 0.0001 to 1 s")?;
+        let secs: f64 = secs.filter(|secs| (1e-4..1.0).contains(secs)).ok_or(PlayerError::NoFrameTime)?;
         if rows.is_empty() {
-            return Err("it has no frames".to_owned());
+            return Err(PlayerError::NoFrames);
         }
         Ok(RawPlayer {
             header: format!("{}\nMOTION\nFrame Time: {secs}\n", hierarchy.join("\n")),

@@ -182,7 +182,7 @@ impl ClientConnection {
                 tokio::time::sleep(wait).await;
             }
             self.note_alive()?;
-            let queued = match ClientMessage::read(&bytes).map_err(SessionError::Malformed)? {
+            let queued = match ClientMessage::read(&bytes)? {
                 ClientMessage::Leave => return Ok(()),
                 ClientMessage::Command(command) => {
                     let checked =

@@ -8,7 +8,7 @@ pub enum SessionError {
     Token(String),
     /// The server does not answer.
     #[error(
-        "{address}: the server does not answer ({problem}); check that `sinew serve` runs there, that --bind lets others in, and the firewall's UDP port"
+        "{address}: the server does not answer ({problem}); check that the server runs there, that ServerSettings::bind lets others in, and the firewall's UDP port"
     )]
     Unreachable {
         /// Host and port of the server.

@@ -124,7 +124,7 @@ async fn handshake(
     let secret = URL_SAFE_NO_PAD.encode(token.secret);
     send_message(&mut to, &Hello { protocol: PROTOCOL, secret, actors: actors.to_vec() }).await?;
     let answer = receive_message(&mut from, MAX_SERVER_MESSAGE).await?;
-    match ServerMessage::read(&answer.unwrap_or_default()).map_err(SessionError::Malformed)? {
+    match ServerMessage::read(&answer.unwrap_or_default())? {
         ServerMessage::Refused(refusal) => Err(SessionError::Refused(refusal)),
         ServerMessage::Welcome(welcome) => {
             let length = usize::try_from(welcome.scene_bytes).unwrap_or(usize::MAX);
@@ -196,7 +196,7 @@ async fn receive_words(mut from: RecvStream, received: &Arc<Received>) -> Sessio
         match ServerMessage::read(&bytes) {
             Ok(ServerMessage::Rejected(problem)) => received.stats().note_rejected(super::message::short(&problem)),
             Ok(_) => {}
-            Err(problem) => return SessionError::Malformed(problem),
+            Err(error) => return error,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Messages on the control stream: JSON behind its length (u32, little-endian).
 
 use super::limits::{MAX_ACTORS_PER_CLIENT, MAX_NAME};
-use super::{Refusal, Role};
+use super::{Refusal, Role, SessionError};
 use serde::{Deserialize, Serialize};
 use sinew_control::Command;
 
@@ -90,11 +90,13 @@ impl ClientMessage {
     /// Decodes a message of a client. Any bytes are safe to pass.
     ///
     /// # Errors
-    /// What is invalid.
-    pub fn read(bytes: &[u8]) -> Result<ClientMessage, String> {
-        let says: ClientMessage = serde_json::from_slice(bytes).map_err(|error| short(&error.to_string()))?;
+    /// [`SessionError::Malformed`]: what is invalid.
+    pub fn read(bytes: &[u8]) -> Result<ClientMessage, SessionError> {
+        let says: ClientMessage = serde_json::from_slice(bytes).map_err(|error| malformed(&error))?;
         match &says {
-            ClientMessage::Press(key) if key.len() > MAX_NAME => Err("the name of a key is too long".to_owned()),
+            ClientMessage::Press(key) if key.len() > MAX_NAME => {
+                Err(SessionError::Malformed("the name of a key is too long".to_owned()))
+            }
             _ => Ok(says),
         }
     }
@@ -104,10 +106,14 @@ impl ServerMessage {
     /// Decodes a message of a server. Any bytes are safe to pass.
     ///
     /// # Errors
-    /// What is invalid.
-    pub fn read(bytes: &[u8]) -> Result<ServerMessage, String> {
-        serde_json::from_slice(bytes).map_err(|error| short(&error.to_string()))
+    /// [`SessionError::Malformed`]: what is invalid.
+    pub fn read(bytes: &[u8]) -> Result<ServerMessage, SessionError> {
+        serde_json::from_slice(bytes).map_err(|error| malformed(&error))
     }
+}
+
+fn malformed(error: &serde_json::Error) -> SessionError {
+    SessionError::Malformed(short(&error.to_string()))
 }
 
 /// Text from a peer, sanitized for display: at most 200 characters, no control characters.

@@ -31,6 +31,7 @@ fn refused(role: Role, actors: &[String], command: &Command) -> Option<String> {
     const STAGE: &str = "only the operator commands the stage and its props; join with the operator's token";
     match &command.action {
         Action::ScriptKilled { .. } => return Some("only the server stops scripts".to_owned()),
+        Action::Edit { .. } => return Some("a scene is edited where it runs, not over the network".to_owned()),
         Action::Reload { text: Some(_), .. } => {
             return Some("text of a controller is not accepted from the network".to_owned());
         }

@@ -85,7 +85,7 @@ impl Server {
         };
         let address = endpoint.local_addr().map_err(machine)?;
         if settings.name.is_none() && address.ip().is_unspecified() {
-            let problem = "every address of this machine is bound, so the token cannot name one; add --name HOST, as others \
+            let problem = "every address of this machine is bound, so the token cannot name one; state ServerSettings::name, as others \
                            call this machine, or bind one address";
             return Err(SessionError::Local(format!("{address}: {problem}")));
         }
