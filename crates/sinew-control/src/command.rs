@@ -313,6 +313,12 @@ pub enum Action {
         /// Why.
         reason: String,
     },
+    /// The scene was edited while it ran: recorded so that a replay edits it at the same step. Nobody else can give it.
+    #[schemars(skip)]
+    Edit {
+        /// The whole text of the scene file.
+        text: String,
+    },
     /// A sample of a live performer arrives.
     Perform {
         /// What the capture system says.
@@ -367,6 +373,7 @@ impl Action {
                 | Action::Cut { .. }
                 | Action::Reload { .. }
                 | Action::ScriptKilled { .. }
+                | Action::Edit { .. }
         )
     }
 }

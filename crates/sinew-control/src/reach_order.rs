@@ -22,12 +22,13 @@ pub enum ReachHand {
 /// `left_m` and `right_m`, one is stated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
-pub struct ReachOrder {
+#[schemars(rename = "ReachOrder")]
+pub struct ReachOrder<N = String> {
     /// Which hand.
     pub hand: ReachHand,
     /// The object to reach for: its surface, on the character's side. It is followed as it moves.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub object: Option<String>,
+    pub object: Option<N>,
     /// A point in the world \[m\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target_m: Option<[f64; 3]>,
@@ -40,7 +41,7 @@ pub struct ReachOrder {
     /// Attach the object when the hand arrives.
     pub grasp: bool,
     /// Obstacles of the arms.
-    pub avoid: Vec<String>,
+    pub avoid: Vec<N>,
     /// Flexibility of the legs, 0.25 to 4: the higher, the sooner the body squats instead of stooping.
     pub flexibility: f64,
     /// Peak speed of the hand \[m/s\]. Default: that of people.
@@ -51,8 +52,8 @@ pub struct ReachOrder {
     pub time_secs: Option<f64>,
 }
 
-impl Default for ReachOrder {
-    fn default() -> ReachOrder {
+impl<N> Default for ReachOrder<N> {
+    fn default() -> ReachOrder<N> {
         ReachOrder {
             hand: ReachHand::Auto,
             object: None,
@@ -68,7 +69,33 @@ impl Default for ReachOrder {
     }
 }
 
-impl ReachOrder {
+impl<N> ReachOrder<N> {
+    /// The same with other names for objects: `N` is text in a scene, an id on a stage; the first that has none is the error.
+    ///
+    /// ```
+    /// use sinew_control::ReachOrder;
+    /// let order = ReachOrder { object: Some("cup"), ..ReachOrder::default() };
+    /// assert_eq!(order.try_map(|name| Ok::<_, ()>(name.len()))?.object, Some(3));
+    /// # Ok::<(), ()>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As `name` says.
+    pub fn try_map<M, E>(&self, mut name: impl FnMut(&N) -> Result<M, E>) -> Result<ReachOrder<M>, E> {
+        Ok(ReachOrder {
+            hand: self.hand,
+            object: self.object.as_ref().map(&mut name).transpose()?,
+            target_m: self.target_m,
+            left_m: self.left_m,
+            right_m: self.right_m,
+            grasp: self.grasp,
+            avoid: self.avoid.iter().map(name).collect::<Result<_, E>>()?,
+            flexibility: self.flexibility,
+            speed_m_s: self.speed_m_s,
+            time_secs: self.time_secs,
+        })
+    }
+
     /// Checks it by itself: one kind of target, numbers in range.
     ///
     /// # Errors

@@ -62,6 +62,13 @@ impl GraphPlayer {
         found.is_some()
     }
 
+    /// Goes on in the state of this name of a graph that was read anew, as if it had been in it all along; false if it does not exist.
+    pub fn carry_over(&mut self, graph: &Graph, name: &str) -> bool {
+        let found = graph.state(name);
+        self.state = found.unwrap_or(self.state);
+        found.is_some()
+    }
+
     /// The present state's name.
     pub fn state_name<'a>(&self, graph: &'a Graph) -> &'a str {
         &graph.states[self.state].name

@@ -62,7 +62,7 @@ impl LiveSpec {
         for (key, value, most, hint) in [
             ("hold_secs", self.hold_secs, 3600.0, "seconds are expected"),
             ("relax_secs", self.relax_secs, 60.0, "seconds are expected"),
-            ("relaxed_gain", self.relaxed_gain, 1.0, "1 keeps the body as firm as ever"),
+            ("relaxed_gain", self.relaxed_gain, 1.0, "1 does not soften the body"),
             ("smoothing_hz", self.smoothing_hz, 1000.0, "6 is usual, 0 switches the filter off"),
             ("most_jitter_secs", self.most_jitter_secs, 0.3, "seconds are expected"),
         ] {

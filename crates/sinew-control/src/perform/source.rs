@@ -148,7 +148,7 @@ impl LiveSource {
     }
 
     /// The performance will start at this pose; call it while the understudy plays.
-    pub fn stand_by(&mut self, pose: &Pose) {
+    pub fn set_start_pose(&mut self, pose: &Pose) {
         if self.presence == Presence::Waiting {
             (self.idle, self.blended, self.shown, self.before) = (*pose, *pose, *pose, *pose);
         }

@@ -50,7 +50,7 @@ impl PosePlayer {
 
     /// Sets the body's present pose as the wanted one, so that the next blend starts there: for a character that was
     /// driven by another source.
-    pub fn take_over(&mut self, character: &CharacterFrame) {
+    pub fn match_body(&mut self, character: &CharacterFrame) {
         let pose = character.pose();
         for node in Node::ALL.into_iter().skip(1) {
             self.now.rotations[node.index()] = pose.local(node).normalize();

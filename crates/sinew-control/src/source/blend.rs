@@ -1,7 +1,7 @@
 //! Two sources layered with a weight over time, as animators layer motions: a wave over a walk, one walk into another.
 
 use super::spec::{Named, SourceContext, SourceFault, SourceKind, SourceSpec};
-use super::{ClipPlay, Moment, Source, SourceEvent};
+use super::{ClipPlay, Moment, PoseBook, Source, SourceEvent};
 use crate::ik::between;
 use crate::{OrderError, OrderErrorKind as Kind, Root, Wanted};
 use glam::DVec3;
@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sinew_body::humanoid::{Body, Node, Pose, log};
 use sinew_world::CharacterFrame;
+use std::sync::Arc;
 
 /// Two sources layered. Each is a table as `source` itself, without `live` and `reach`; blends may nest four deep.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -159,6 +160,11 @@ impl Source for Blend {
         self.over.advance(moment, events);
     }
 
+    fn set_book(&mut self, book: &Arc<PoseBook>) {
+        self.base.set_book(book);
+        self.over.set_book(book);
+    }
+
     fn signal(&mut self, word: &str) {
         self.base.signal(word);
         self.over.signal(word);
@@ -209,8 +215,8 @@ impl Source for Blend {
         self.over.resume(body, left_secs, now_secs, at);
     }
 
-    fn take_over(&mut self, character: &CharacterFrame) {
-        self.base.take_over(character);
-        self.over.take_over(character);
+    fn match_body(&mut self, character: &CharacterFrame) {
+        self.base.match_body(character);
+        self.over.match_body(character);
     }
 }

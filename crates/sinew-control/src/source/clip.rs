@@ -33,6 +33,12 @@ const STARTS_SECS: f64 = 0.8;
 /// walk.
 const NEAR_SECS: f64 = 0.3;
 
+/// How far into a clip its feet are searched for a match when it begins in a moving body \[s\]: a slow walk's cycle.
+const CYCLE_SECS: f64 = 1.4;
+
+/// By how much better a later beginning must match \[m² of both ankles, per second\]: a centimetre is worth no second.
+const LATER_M2_PER_S: f64 = 0.01;
+
 impl ClipSource {
     /// Poses at a rate \[Hz\], of which the one at `start_secs` is the stage's first.
     pub fn of_poses(poses: Vec<Pose>, hz: f64, start_secs: f64) -> ClipSource {
@@ -44,10 +50,37 @@ impl ClipSource {
         self.pose_of(self.start_secs + self.own_secs(time_secs))
     }
 
-    /// As [`Source::resume`] from its beginning, but at full pace at once: for a character that another source moves until then.
+    /// As [`Source::resume`] from its beginning, but at full pace at once: for a character that another source moves until then. A walk
+    /// begins in the phase of its cycle in which the feet are; what fits at its beginning begins there.
     pub fn begin_in(&mut self, body: &Body, now_secs: f64, at: &Pose) {
-        self.resume(body, 0.0, now_secs, at);
+        let first = self.start_secs + self.own_secs(0.0);
+        let tries = (CYCLE_SECS * self.hz).floor() as i64;
+        let hz = self.hz;
+        let phases = (0..=tries).map(|frames| first + frames as f64 / hz);
+        self.enter(body, phases, LATER_M2_PER_S, now_secs, at);
         self.resumed_secs = None;
+    }
+
+    /// Goes on from that of some times of the clip at which its feet match those of a pose best, moved and turned to it. A later one
+    /// must match better, by so much a second.
+    fn enter(&mut self, body: &Body, times: impl Iterator<Item = f64>, later_m2_per_s: f64, now_secs: f64, at: &Pose) {
+        let stance = stance(body, at);
+        let off = |secs: &f64| {
+            let other = self::stance(body, &self.pose_of(*secs));
+            let feet = (0..2).map(|foot| (other[foot] - stance[foot]).length_squared()).sum::<f64>();
+            feet + later_m2_per_s * secs
+        };
+        let best = times.min_by(|one, other| off(one).total_cmp(&off(other)));
+        let from_secs = best.unwrap_or(self.start_secs).max(0.0);
+        let here = self.pose_of(from_secs);
+        let turn = DQuat::from_rotation_y(heading_rad(at) - heading_rad(&here));
+        let (from, to) = (here.hips_position, at.hips_position);
+        for pose in Arc::make_mut(&mut self.poses) {
+            let moved = turn * (pose.hips_position - from);
+            pose.hips_position = DVec3::new(to.x, from.y, to.z) + moved;
+            pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
+        }
+        self.start_secs = from_secs - now_secs;
     }
 
     /// The clip's time: a resumed clip starts from rest.
@@ -98,22 +131,9 @@ impl Source for ClipSource {
     fn resume(&mut self, body: &Body, left_secs: f64, now_secs: f64, at: &Pose) {
         let left = self.start_secs + self.own_secs(left_secs);
         let tries = (NEAR_SECS * self.hz).floor() as i64;
-        let near = (-tries..=tries).map(|frames| left + frames as f64 / self.hz);
-        let stance = stance(body, at);
-        let off = |secs: &f64| {
-            let other = self::stance(body, &self.pose_of(*secs));
-            (0..2).map(|foot| (other[foot] - stance[foot]).length_squared()).sum::<f64>()
-        };
-        let from_secs = near.min_by(|one, other| off(one).total_cmp(&off(other))).unwrap_or(left).max(0.0);
-        let here = self.pose_of(from_secs);
-        let turn = DQuat::from_rotation_y(heading_rad(at) - heading_rad(&here));
-        let (from, to) = (here.hips_position, at.hips_position);
-        for pose in Arc::make_mut(&mut self.poses) {
-            let moved = turn * (pose.hips_position - from);
-            pose.hips_position = DVec3::new(to.x, from.y, to.z) + moved;
-            pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
-        }
-        self.start_secs = from_secs - now_secs;
+        let hz = self.hz;
+        let near = (-tries..=tries).map(|frames| left + frames as f64 / hz);
+        self.enter(body, near, 0.0, now_secs, at);
         self.resumed_secs = Some(now_secs);
     }
 }

@@ -136,6 +136,13 @@ impl KeyPoses {
         }
     }
 
+    /// Aims at a pose, if that is another one than it aims at.
+    fn aim_anew(&mut self, pose: &KeyPose) {
+        if self.player.aimed_at() != pose {
+            self.player.aim(pose);
+        }
+    }
+
     fn step_graph(&mut self, moment: &Moment) -> Option<SourceEvent> {
         let (name, player) = self.graph.as_mut()?;
         let graph = self.book.graphs.get(name)?;
@@ -167,6 +174,25 @@ impl Source for KeyPoses {
         }
     }
 
+    /// A graph goes on in its state, or from its start when it has that state no more; a pose that changed is blended to. What is gone
+    /// keeps the body where it was aimed at.
+    fn set_book(&mut self, book: &Arc<PoseBook>) {
+        let state = self.graph_state().map(|(_, state)| state.to_owned());
+        self.book = Arc::clone(book);
+        if let Some((name, mut player)) = self.graph.take()
+            && let Some(graph) = book.graphs.get(&name)
+        {
+            if !state.is_some_and(|state| player.carry_over(graph, &state)) {
+                player = GraphPlayer::new(graph, self.step_secs);
+            }
+            player.pose_name(graph).clone_into(&mut self.pose);
+            self.aim_anew(player.pose(graph));
+            self.graph = Some((name, player));
+        } else if let Some(pose) = book.poses.get(&self.pose) {
+            self.aim_anew(pose);
+        }
+    }
+
     /// It is forgotten after the next step.
     fn signal(&mut self, word: &str) {
         if self.signals.len() < MAX_SIGNALS {
@@ -191,8 +217,8 @@ impl Source for KeyPoses {
         }
     }
 
-    fn take_over(&mut self, character: &CharacterFrame) {
-        self.player.take_over(character);
+    fn match_body(&mut self, character: &CharacterFrame) {
+        self.player.match_body(character);
     }
 }
 

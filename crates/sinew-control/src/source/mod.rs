@@ -25,6 +25,7 @@ use sinew_body::humanoid::{Body, Pose};
 use sinew_world::{CharacterFrame, CharacterId, Frame};
 use std::any::Any;
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// The input of a source for a physics step.
 #[derive(Clone, Copy, Debug)]
@@ -88,6 +89,11 @@ pub trait Source: Any + Debug + Send + Sync {
         let _ = (moment, events);
     }
 
+    /// Key poses and graphs were read anew. What has none does nothing.
+    fn set_book(&mut self, book: &Arc<PoseBook>) {
+        let _ = book;
+    }
+
     /// A signal for pose graphs.
     fn signal(&mut self, word: &str) {
         let _ = word;
@@ -119,7 +125,7 @@ pub trait Source: Any + Debug + Send + Sync {
     }
 
     /// Starts at the body's present pose: something else has moved it until now.
-    fn take_over(&mut self, character: &CharacterFrame) {
+    fn match_body(&mut self, character: &CharacterFrame) {
         let _ = character;
     }
 }

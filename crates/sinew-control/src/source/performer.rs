@@ -105,7 +105,7 @@ impl Performer {
     /// Advances by a step; the performer will start at the understudy's pose. Returns a change of the stream's state.
     pub fn advance(&mut self, now_secs: f64, step_secs: f64, understudy: Option<&Pose>) -> Option<StreamChange> {
         if let Some(pose) = understudy {
-            self.source.stand_by(pose);
+            self.source.set_start_pose(pose);
         }
         let presence = self.source.advance(now_secs, step_secs)?;
         let replaces_understudy = presence == Presence::Performing && self.has_understudy_on();

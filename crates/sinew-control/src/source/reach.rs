@@ -36,7 +36,7 @@ enum Phase {
 #[derive(Clone, Debug)]
 pub struct ReachSource {
     reacher: Reacher,
-    order: ReachOrder,
+    order: ReachOrder<PropId>,
     /// Start of the reacher's time, and time of the last command \[s\].
     began_secs: f64,
     ordered_secs: f64,
@@ -135,7 +135,7 @@ impl ReachSource {
     /// Reaches from now on; `number` counts the character's orders.
     pub fn order(
         &mut self,
-        order: &ReachOrder,
+        order: &ReachOrder<PropId>,
         aimed: [Option<Aimed>; 2],
         obstacles: &[Obstacle],
         frame: &Frame,
@@ -191,7 +191,7 @@ impl ReachSource {
     }
 
     /// Whether it carries out this order now.
-    pub fn is_about(&self, order: &ReachOrder) -> bool {
+    pub fn is_about(&self, order: &ReachOrder<PropId>) -> bool {
         self.is_reaching() && self.order == *order
     }
 

@@ -63,6 +63,15 @@ impl Sources {
         &self.book
     }
 
+    /// Key poses and graphs were read anew, on the same body.
+    pub fn set_book(&mut self, book: Arc<PoseBook>) {
+        self.own.set_book(&book);
+        if let Some((before, _)) = &mut self.before {
+            before.set_book(&book);
+        }
+        self.book = book;
+    }
+
     /// The pose of the book that key poses begin in.
     pub fn first(&self) -> &str {
         &self.first
@@ -306,8 +315,8 @@ impl Sources {
     }
 
     /// Starts at the body's present pose: something else has moved it until now.
-    pub fn take_over(&mut self, character: &CharacterFrame) {
-        self.own.take_over(character);
+    pub fn match_body(&mut self, character: &CharacterFrame) {
+        self.own.match_body(character);
     }
 
     /// Advances all sources by a step, also those that do not play. Events are appended to `events`. `own` is the

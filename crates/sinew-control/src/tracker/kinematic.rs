@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::pose_interpolator::PoseInterpolator;
-use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
+use super::{Honours, Tracker, TrackerKind, TrackerStart, Wants};
 use crate::Wanted;
 use sinew_body::humanoid::{Node, Pose};
 use sinew_world::{CharacterId, World};
@@ -78,7 +78,7 @@ impl Tracker for KinematicTracker {
         if self.wants_pose() { Wants::Pose } else { Wants::Nothing }
     }
 
-    fn take_over(&mut self, _: &TakeOver, _: &mut World, _: CharacterId) {}
+    fn start(&mut self, _: &TrackerStart, _: &mut World, _: CharacterId) {}
 
     fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId) {
         if self.wants_pose() {

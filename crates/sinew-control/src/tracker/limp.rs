@@ -1,6 +1,6 @@
 //! The tracker `none`: joints are limp, and the body falls.
 
-use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
+use super::{Honours, Tracker, TrackerKind, TrackerStart, Wants};
 use crate::Wanted;
 use sinew_world::{CharacterId, World};
 
@@ -32,7 +32,7 @@ impl Tracker for Limp {
         Wants::Nothing
     }
 
-    fn take_over(&mut self, _: &TakeOver, world: &mut World, character: CharacterId) {
+    fn start(&mut self, _: &TrackerStart, world: &mut World, character: CharacterId) {
         world.set_limp(character);
     }
 

@@ -45,7 +45,7 @@ pub enum Wants {
 
 /// The state with which a tracker starts.
 #[derive(Clone, Copy)]
-pub struct TakeOver<'a> {
+pub struct TrackerStart<'a> {
     /// The wanted pose at any time of the stage \[s\], where the source is a motion that is known beforehand, such as a clip.
     pub motion: Option<&'a dyn Fn(f64) -> Pose>,
 }
@@ -58,13 +58,13 @@ pub struct TakeOver<'a> {
 /// ```
 /// use sinew_body::humanoid::{Body, Pose};
 /// use sinew_control::Wanted;
-/// use sinew_control::tracker::{KinematicTracker, TakeOver, Tracker, Wants};
+/// use sinew_control::tracker::{KinematicTracker, TrackerStart, Tracker, Wants};
 /// use sinew_world::{CharacterSpec, Surface, World, WorldSettings};
 /// let mut world = World::new(WorldSettings::default());
 /// let spec = CharacterSpec { body: Body::standard(80.0, 1.7), pose: Pose::STANDING, velocity: glam::DVec3::ZERO, surface: Surface::BODY };
 /// let character = world.add_character(spec)?;
 /// let mut tracker: Box<dyn Tracker> = Box::new(KinematicTracker::new(1.0 / 60.0, &Pose::STANDING));
-/// tracker.take_over(&TakeOver { motion: None }, &mut world, character);
+/// tracker.start(&TrackerStart { motion: None }, &mut world, character);
 /// let mut wanted = Wanted::STANDING;
 /// for _ in 0..240 {
 ///     if tracker.wants() == Wants::Pose {
@@ -95,7 +95,7 @@ pub trait Tracker: Snapshot + Any + Debug + Send + Sync {
     }
 
     /// The body is its own from now on, after another tracker's [`release`](Tracker::release).
-    fn take_over(&mut self, start: &TakeOver, world: &mut World, character: CharacterId);
+    fn start(&mut self, start: &TrackerStart, world: &mut World, character: CharacterId);
 
     /// Sets forces, springs or positions for the world's next step.
     fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId);

@@ -4,7 +4,7 @@
 //! with (θ − θ_d), the sign of positive feedback. On a ball joint the error is the rotation vector from present to wanted. The
 //! world integrates the springs implicitly.
 
-use super::{Gains, Honours, JointGain, TakeOver, Tracker, TrackerKind, Wants};
+use super::{Gains, Honours, JointGain, Tracker, TrackerKind, TrackerStart, Wants};
 use crate::Wanted;
 use sinew_body::humanoid::{Body, Node};
 use sinew_world::{CharacterId, Drive, World, outboard_inertias};
@@ -65,7 +65,7 @@ impl Tracker for PdTracker {
         Wants::Joints
     }
 
-    fn take_over(&mut self, _: &TakeOver, _: &mut World, _: CharacterId) {}
+    fn start(&mut self, _: &TrackerStart, _: &mut World, _: CharacterId) {}
 
     fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId) {
         for node in Node::ALL.into_iter().skip(1) {

@@ -10,7 +10,7 @@ use super::contact_forces::ContactForces;
 use super::hold::{Grip, GroundMotion, Hold};
 use super::pose_interpolator::PoseInterpolator;
 use super::tasks::Tasks;
-use super::{Honours, TakeOver, Tracker, TrackerKind, Wants};
+use super::{Honours, Tracker, TrackerKind, TrackerStart, Wants};
 use crate::Wanted;
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
@@ -203,7 +203,7 @@ impl Tracker for ResponseTracker {
     }
 
     /// Continues in the middle of a motion that is known beforehand.
-    fn take_over(&mut self, start: &TakeOver, world: &mut World, _: CharacterId) {
+    fn start(&mut self, start: &TrackerStart, world: &mut World, _: CharacterId) {
         let Some(motion) = start.motion else { return };
         let now_secs = world.frame().time_secs;
         self.restart(&motion(now_secs - self.clock.time_step_secs()), &motion(now_secs));

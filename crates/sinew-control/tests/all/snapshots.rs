@@ -103,7 +103,7 @@ fn key_poses_graphs_and_limbs_that_reach_are_restored_to_the_same_bits() {
             match at {
                 100 => player.ik.reach(Limb::LeftArm, Reach::own(&body, Limb::LeftArm, DVec3::new(0.4, 1.2, 0.4))),
                 400 => player.ik.release_all(),
-                500 => player.take_over(&frames[at].characters[0]),
+                500 => player.match_body(&frames[at].characters[0]),
                 _ => {}
             }
             let mut target = Wanted::STANDING;

@@ -2,7 +2,7 @@
 
 use super::KdTracker;
 use crate::Wanted;
-use crate::tracker::{Honours, TakeOver, Tracker, TrackerKind, Wants};
+use crate::tracker::{Honours, Tracker, TrackerKind, TrackerStart, Wants};
 use sinew_body::humanoid::{Node, Pose};
 use sinew_world::{CharacterId, World};
 
@@ -36,7 +36,7 @@ impl Tracker for KdTracker {
     }
 
     /// At the world's start the body has the velocity of its motion; later it keeps its own state.
-    fn take_over(&mut self, start: &TakeOver, world: &mut World, character: CharacterId) {
+    fn start(&mut self, start: &TrackerStart, world: &mut World, character: CharacterId) {
         if world.frame().step > 0 {
             self.begin_where_it_is(TAKE_OVER_SECS);
             return;

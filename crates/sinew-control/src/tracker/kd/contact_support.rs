@@ -41,7 +41,7 @@ sinew_snapshot::snapshot!(ContactSupport { force_n, share, low_m });
 impl ContactSupport {
     /// Updates with the contacts of the world's last step. `ground`: a prop that counts as ground; `hips_m`: height of
     /// the wanted hips.
-    pub(super) fn feel(&mut self, world: &World, character: CharacterId, ground: Option<PropId>, hips_m: f64) {
+    pub(super) fn measure(&mut self, world: &World, character: CharacterId, ground: Option<PropId>, hips_m: f64) {
         let step_secs = world.settings().step_secs();
         let mass_kg = world.body(character).map_or(80.0, |body| body.mass_kg());
         let weight_n = mass_kg * strength_gravity_m_s2(world.settings().gravity_m_s2);

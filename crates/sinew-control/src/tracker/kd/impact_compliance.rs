@@ -36,7 +36,7 @@ sinew_snapshot::snapshot!(ImpactCompliance { load, impulse, share });
 
 impl ImpactCompliance {
     /// Updates with pushes and contacts on the trunk in the world's last step.
-    pub(super) fn feel(&mut self, world: &World, character: CharacterId, mass_kg: f64, step_secs: f64) {
+    pub(super) fn measure(&mut self, world: &World, character: CharacterId, mass_kg: f64, step_secs: f64) {
         let force = force_on_trunk(world, character, step_secs);
         let force = if force.is_finite() { force } else { DVec3::ZERO };
         self.impulse += (force - self.load) * step_secs;

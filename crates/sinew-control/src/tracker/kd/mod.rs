@@ -332,7 +332,7 @@ impl KdTracker {
             let masks = self.self_collision.look(&next, frame);
             world.set_passes_own(character, masks);
         }
-        self.feel(world, character, step_secs);
+        self.measure_contacts(world, character, step_secs);
         world.set_reaction_body(character, self.carrier.map(|carrier| carrier.prop()));
         self.hold(world, character, &next, progress, step_secs);
         self.before = self.now;
@@ -372,15 +372,15 @@ impl KdTracker {
     }
 
     /// Updates impact compliance and contact support.
-    fn feel(&mut self, world: &World, character: CharacterId, step_secs: f64) {
+    fn measure_contacts(&mut self, world: &World, character: CharacterId, step_secs: f64) {
         let is_held = self.pins.value() * self.carries.value() >= 1.0;
         match world.body(character).filter(|_| self.settings.yields && is_held) {
-            Some(body) => self.impact_compliance.feel(world, character, body.mass_kg(), step_secs),
+            Some(body) => self.impact_compliance.measure(world, character, body.mass_kg(), step_secs),
             None => self.impact_compliance.forget(),
         }
         if self.settings.leans {
             let ground = self.carrier.map(|carrier| carrier.prop());
-            self.contact_support.feel(world, character, ground, self.posed.hips_position.y);
+            self.contact_support.measure(world, character, ground, self.posed.hips_position.y);
         } else {
             self.contact_support.forget();
         }
