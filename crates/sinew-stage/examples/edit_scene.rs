@@ -1,7 +1,7 @@
 //! A scene is edited while it runs, and the edit is taken back: `cargo run -p sinew-stage --example edit_scene`.
 
 use sinew_stage::scene::SceneDocument;
-use sinew_stage::{Scene, Stage};
+use sinew_stage::{EditOutcome, Scene, Stage};
 
 const TEXT: &str = "format = 1
 
@@ -25,9 +25,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     document.set("characters.boxer.reflexes", "[\"balance\"]")?;
     document.set("characters.boxer.mass_kg", "65")?;
     document.set("props.ball.position_m", "[0, 2, 1]")?;
+    document.set("characters.partner", "{ position_m = [1, 0, 0] }")?;
     println!("{document}");
     for edited in stage.edit(&document.to_string())? {
-        println!("{}: {:?}", edited.path, edited.outcome);
+        match edited.outcome {
+            EditOutcome::NeedsRestart(reason) => println!("{}: not while it runs: {reason}", edited.path),
+            outcome => println!("{}: {outcome:?}", edited.path),
+        }
     }
     run(&mut stage, 120);
 

@@ -4,8 +4,8 @@ use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_control::perform::LiveSource;
 use sinew_control::reflex::{Reflex, Sense};
 use sinew_control::source::{KeyPoses, Performer, PoseBook, SourceEvent, Sources};
-use sinew_control::tracker::{Gains, PdTracker, TakeOver, Tracker, Wants};
-use sinew_control::{Layer, Root, Wanted};
+use sinew_control::tracker::{Gains, PdTracker, Tracker, TrackerKind, TrackerStart, Wants};
+use sinew_control::{Layer, OrderError, OrderErrorKind, Root, Wanted};
 use sinew_world::{CharacterId, PropId, World};
 use std::any::Any;
 use std::sync::Arc;
@@ -109,6 +109,14 @@ impl Actor {
         &self.springs
     }
 
+    /// Other springs from now on, for its present tracker too.
+    pub(crate) fn set_springs(&mut self, springs: Gains) {
+        if self.tracker.kind() == TrackerKind::Pd {
+            self.tracker = Box::new(PdTracker::with(springs.clone()));
+        }
+        self.springs = springs;
+    }
+
     /// Whether its controller is called: one that belongs to an understudy is silent while the performer acts.
     pub(crate) fn hears_scripts(&self) -> bool {
         let is_off = self.sources.performer().is_some_and(Performer::has_understudy_off);
@@ -139,7 +147,7 @@ impl Actor {
         }
     }
 
-    pub(crate) fn set_reflex(&mut self, name: &str, on: bool) -> Result<(), String> {
+    pub(crate) fn set_reflex(&mut self, name: &str, on: bool) -> Result<(), OrderError> {
         match self.reflexes.iter_mut().find(|(reflex, _)| reflex.name() == name) {
             Some((reflex, is_on)) => {
                 if on && !*is_on {
@@ -149,8 +157,11 @@ impl Actor {
             }
             None => {
                 let reflex = sinew_control::reflex::by_name(name, self.sources.body());
-                let known = sinew_control::reflex::NAMES.join(", ");
-                self.reflexes.push((reflex.ok_or_else(|| format!("no reflex `{name}`; there are {known}"))?, on));
+                let unknown = || {
+                    let known = sinew_control::reflex::NAMES.join(", ");
+                    OrderError::new(OrderErrorKind::NotFound, format!("no reflex `{name}`; there are {known}"))
+                };
+                self.reflexes.push((reflex.ok_or_else(unknown)?, on));
             }
         }
         if on {
@@ -171,13 +182,13 @@ impl Actor {
         let Some(character) = world.frame().character(self.id) else { return };
         self.sources.begin_root(character, tracker.locks_feet().then_some(floor_m));
         if tracker.wants() == Wants::Joints {
-            self.sources.take_over(character);
+            self.sources.match_body(character);
         }
         std::mem::replace(&mut self.tracker, tracker).release(world, self.id);
         let is_motion = self.sources.own().motion().is_some();
         let motion = |secs: f64| self.sources.own_pose_at(secs);
-        let start = TakeOver { motion: is_motion.then_some(&motion) };
-        self.tracker.take_over(&start, world, self.id);
+        let start = TrackerStart { motion: is_motion.then_some(&motion) };
+        self.tracker.start(&start, world, self.id);
     }
 
     /// All its sources go on by a step.

@@ -1,13 +1,15 @@
 //! Orders to reach: what they name is found on the stage, and what hands take hold of is held.
 
 use crate::Stage;
+use crate::actor::Actor;
 use crate::event::{Cause, CharacterEffect, Effect, ReachTarget};
+use crate::stage::gone;
 use sinew_body::humanoid::{Node, Pose, exp};
-use sinew_control::ReachOrder;
 use sinew_control::source::{ReachArrival, ReachSource};
 use sinew_control::tracker::TrackerKind;
+use sinew_control::{OrderError, OrderErrorKind, ReachOrder};
 use sinew_reach::{Goal, Reacher, Start, Style};
-use sinew_world::{BodyState, CharacterFrame, CharacterId, Entity};
+use sinew_world::{BodyState, CharacterFrame, CharacterId, Entity, PropId};
 
 /// A reach under way, to look at.
 #[derive(Clone, Copy, Debug)]
@@ -29,9 +31,8 @@ impl Stage {
     pub(crate) fn begin_reach(
         &mut self,
         index: CharacterId,
-        order: &ReachOrder,
-    ) -> Result<Option<CharacterEffect>, String> {
-        order.check().map_err(|error| error.to_string())?;
+        order: &ReachOrder<PropId>,
+    ) -> Result<Option<CharacterEffect>, OrderError> {
         let style = Style {
             flexibility: order.flexibility,
             speed_m_s: order.speed_m_s.filter(|_| order.time_secs.is_none()),
@@ -39,15 +40,15 @@ impl Stage {
             seed: self.scene.stage.seed.wrapping_add(index.slot() as u64),
             ..Style::default()
         };
-        if self.actors[index.slot()].sources.reach().is_some_and(|reach| reach.is_about(order)) {
+        if self.actor(index)?.sources.reach().is_some_and(|reach| reach.is_about(order)) {
             return Ok(None);
         }
         let aimed = self.aim_of(index, order)?;
         let obstacles = self.obstacles(&order.avoid)?;
         let frame = self.world.frame();
         let now_secs = frame.time_secs;
-        let start = self.start_of(index, &frame.characters[index.slot()], now_secs);
-        let actor = &mut self.actors[index.slot()];
+        let start = self.start_of(self.actor(index)?, self.character_frame(index)?, now_secs);
+        let actor = self.actors.get_mut(&index).ok_or_else(|| gone(index))?;
         let mut reach = match actor.sources.take_reach() {
             // On from the reach before: nothing jumps.
             Some(mut before) => before.restyle(&style, now_secs).map(|()| before),
@@ -56,13 +57,13 @@ impl Stage {
                 ReachSource::new(actor.body(), index, &style, &start, now_secs, step_secs)
             }
         }
-        .map_err(|error| error.to_string())?;
+        .map_err(|error| OrderError::new(OrderErrorKind::OutOfRange, error.to_string()))?;
         actor.reaches += 1;
         reach.order(order, aimed, &obstacles, frame, actor.reaches);
         let (goal, outcome) = (reach.goal(frame), reach.reacher().outcome());
         let point = || ReachTarget::Point(goal.left.or(goal.right).unwrap_or_default());
         let effect = CharacterEffect::Reaches {
-            target: order.object.clone().map_or_else(point, ReachTarget::Object),
+            target: order.object.map_or_else(point, |prop| ReachTarget::Object(self.cast.prop_name(prop).to_owned())),
             in_secs: outcome.arrives_secs - reach.own_secs(now_secs),
             steps: outcome.steps.len(),
             fails: outcome.reason,
@@ -75,13 +76,14 @@ impl Stage {
     /// Stands up from a reach and goes back to what was before. False when there is none.
     pub(crate) fn end_reach(&mut self, index: CharacterId) -> bool {
         let now_secs = self.world.frame().time_secs;
-        self.actors[index.slot()].sources.reach_mut().is_some_and(|reach| reach.leave_at(now_secs))
+        let reach = self.actors.get_mut(&index).and_then(|actor| actor.sources.reach_mut());
+        reach.is_some_and(|reach| reach.leave_at(now_secs))
     }
 
     /// The reach that a character is about, if it reaches now.
     pub fn reach_of(&self, character: CharacterId) -> Option<ReachNow<'_>> {
         let frame = self.world.frame();
-        let reach = self.actors.get(character.slot())?.sources.reach().filter(|reach| reach.is_reaching())?;
+        let reach = self.actors.get(&character)?.sources.reach().filter(|reach| reach.is_reaching())?;
         Some(ReachNow {
             number: reach.number(),
             reacher: reach.reacher(),
@@ -92,9 +94,8 @@ impl Stage {
     }
 
     /// The wanted pose and how it moves; of a body that springs or nothing drives, its own.
-    fn start_of(&self, index: CharacterId, character: &CharacterFrame, now_secs: f64) -> Start {
+    fn start_of(&self, actor: &Actor, character: &CharacterFrame, now_secs: f64) -> Start {
         let ago = 1.0 / f64::from(self.scene.stage.motion_hz);
-        let actor = &self.actors[index.slot()];
         if matches!(actor.tracker().kind(), TrackerKind::Kinematic | TrackerKind::Response)
             && actor.sources.own().motion().is_some()
         {
@@ -109,7 +110,7 @@ impl Stage {
 
     /// The hands of a reach should be there.
     pub(crate) fn reach_arrives(&mut self, index: CharacterId, arrival: &ReachArrival) {
-        let who = self.cast.characters()[index.slot()].clone();
+        let who = self.cast.character_name(index).to_owned();
         let mut notes = Vec::new();
         for hand in &arrival.hands {
             notes.push(CharacterEffect::HandArrives { node: hand.node, gap_m: hand.gap_m });
@@ -117,7 +118,7 @@ impl Stage {
         for held in arrival.hands.iter().filter_map(|hand| hand.holds) {
             self.world.attach(held);
             if let Entity::Prop(prop) = held.object {
-                notes.push(CharacterEffect::Holds { node: held.node, object: self.cast.props()[prop.slot()].clone() });
+                notes.push(CharacterEffect::Holds { node: held.node, object: self.cast.prop_name(prop).to_owned() });
             }
         }
         for note in notes {

@@ -3,7 +3,7 @@
 use crate::Stage;
 use crate::step::step_of;
 use sinew_body::humanoid::Node;
-use sinew_world::{CharacterId, PropId};
+use sinew_world::{CharacterId, Entity, PropId};
 
 /// Something that gravity acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,16 @@ pub struct Fade {
     to: f64,
     begin_step: u64,
     end_step: u64,
+}
+
+impl Fade {
+    /// What it acts on.
+    pub fn on(&self) -> Entity {
+        match self.what {
+            Weighs::Part(character, node) => Entity::Part(character, node),
+            Weighs::Prop(prop) => Entity::Prop(prop),
+        }
+    }
 }
 
 impl Stage {

@@ -40,7 +40,7 @@ pub(crate) struct Play {
     pub until_secs: f64,
     /// Low-passed, as the response needs it to know the motion's torques.
     pub is_filtered: bool,
-    /// Lifted or lowered so that its soles stand on the floor of the character's place: for bodies that feel the floor.
+    /// Lifted or lowered so that its soles stand on the floor of the character's place: for bodies that collide with the floor.
     pub stands_on_floor: bool,
 }
 

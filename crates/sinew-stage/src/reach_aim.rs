@@ -4,17 +4,21 @@ use crate::Stage;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
 use sinew_control::source::{Aimed, HANDS};
-use sinew_control::{ReachHand, ReachOrder};
+use sinew_control::{OrderError, OrderErrorKind, ReachHand, ReachOrder};
 use sinew_reach::Obstacle;
-use sinew_world::{BodyState, CharacterId, Entity, Form, Solid};
+use sinew_world::{BodyState, CharacterId, Entity, Form, PropId, Solid};
 
 /// A hand's own thickness, between its centre and what it touches \[m\].
 const PALM_M: f64 = 0.035;
 
 impl Stage {
     /// Where each hand is to come.
-    pub(crate) fn aim_of(&self, index: CharacterId, order: &ReachOrder) -> Result<[Option<Aimed>; 2], String> {
-        let character = self.world.frame().character(index).ok_or("the character is not in the world")?;
+    pub(crate) fn aim_of(
+        &self,
+        index: CharacterId,
+        order: &ReachOrder<PropId>,
+    ) -> Result<[Option<Aimed>; 2], OrderError> {
+        let character = self.character_frame(index)?;
         if order.left_m.is_some() || order.right_m.is_some() {
             let point = |place: Option<[f64; 3]>| place.map(|place| Aimed::Point(place.into()));
             return Ok([point(order.left_m), point(order.right_m)]);
@@ -37,10 +41,10 @@ impl Stage {
             });
             return Ok(aimed);
         }
-        let name = order.object.as_deref().unwrap_or_default();
-        let prop = self.cast.prop(name).ok_or_else(|| format!("no object `{name}`"))?;
-        let state = self.world.frame().prop(prop).ok_or("it is not in the world")?;
-        let solid = self.scene.props.values().nth(prop.slot()).and_then(crate::scene::PropSpec::solid);
+        // The order was checked: it states a target.
+        let Some(prop) = order.object else { return Ok([None; 2]) };
+        let state = self.world.frame().prop(prop).ok_or_else(|| prop_gone(prop))?;
+        let solid = self.solid_of(prop);
         let surface = |direction: DVec3| {
             let depth = solid.as_ref().map_or(0.0, |solid| depth(solid, state, direction));
             direction * (depth + PALM_M)
@@ -59,20 +63,20 @@ impl Stage {
     }
 
     /// Props that arms keep clear of, where they are now.
-    pub(crate) fn obstacles(&self, names: &[String]) -> Result<Vec<Obstacle>, String> {
+    pub(crate) fn obstacles(&self, props: &[PropId]) -> Result<Vec<Obstacle>, OrderError> {
         let mut all = Vec::new();
-        for name in names {
-            let prop = self.cast.prop(name).ok_or_else(|| format!("no object `{name}`"))?;
-            let (Some(state), Some(solid)) = (
-                self.world.frame().prop(prop),
-                self.scene.props.values().nth(prop.slot()).and_then(crate::scene::PropSpec::solid),
-            ) else {
-                continue;
-            };
+        for &prop in props {
+            let state = self.world.frame().prop(prop).ok_or_else(|| prop_gone(prop))?;
+            let Some(solid) = self.solid_of(prop) else { continue };
             all.extend(obstacles_of(&solid, state));
         }
         Ok(all)
     }
+}
+
+/// The error for a prop that was removed.
+fn prop_gone(prop: PropId) -> OrderError {
+    OrderError::new(OrderErrorKind::NotFound, format!("prop {prop} is not there any more"))
 }
 
 /// How far a prop's surface is from its centre in a direction \[m\].

@@ -2,7 +2,6 @@
 
 use crate::Stage;
 use crate::reach_aim::depth;
-use crate::scene::PropSpec;
 use sinew_control::source::{Aimed, HANDS};
 use sinew_world::{CharacterId, Entity, PropId};
 
@@ -15,36 +14,36 @@ impl Stage {
         for (side, aimed) in aimed.iter().enumerate() {
             let Some(Aimed::Prop(prop, _)) = *aimed else { continue };
             self.world.set_passes_prop(index, HANDS[side], prop, true);
-            let through = &mut self.actors[index.slot()].through;
-            if !through.contains(&(side, prop)) {
-                through.push((side, prop));
+            let Some(actor) = self.actors.get_mut(&index) else { continue };
+            if !actor.through.contains(&(side, prop)) {
+                actor.through.push((side, prop));
             }
         }
     }
 
     /// Hands that reach for something else by now, or for nothing, push again what they are clear of.
     pub(crate) fn end_passing(&mut self, index: CharacterId) {
-        if self.actors[index.slot()].through.is_empty() {
-            return;
-        }
-        let mut through = std::mem::take(&mut self.actors[index.slot()].through);
+        let Some(actor) = self.actors.get_mut(&index).filter(|actor| !actor.through.is_empty()) else { return };
+        let mut through = std::mem::take(&mut actor.through);
         through.retain(|&(side, prop)| {
-            let is_aimed = self.actors[index.slot()].sources.reach().is_some_and(|reach| reach.is_aimed(side, prop));
+            let reach = self.actors.get(&index).and_then(|actor| actor.sources.reach());
+            let is_aimed = reach.is_some_and(|reach| reach.is_aimed(side, prop));
             let stays = is_aimed || !self.is_clear(index, side, prop);
             if !stays {
                 self.world.set_passes_prop(index, HANDS[side], prop, false);
             }
             stays
         });
-        self.actors[index.slot()].through = through;
+        if let Some(actor) = self.actors.get_mut(&index) {
+            actor.through = through;
+        }
     }
 
     fn is_clear(&self, index: CharacterId, side: usize, prop: PropId) -> bool {
         let frame = self.world.frame();
         let (Some(character), Some(state)) = (frame.character(index), frame.prop(prop)) else { return true };
         let away = character.part(HANDS[side]).centre - state.centre;
-        let solid = self.scene.props.values().nth(prop.slot()).and_then(PropSpec::solid);
-        let depth = solid.map_or(0.0, |solid| depth(&solid, state, away.normalize_or_zero()));
+        let depth = self.solid_of(prop).map_or(0.0, |solid| depth(&solid, state, away.normalize_or_zero()));
         !self.world.is_attached(index, HANDS[side], Entity::Prop(prop)) && away.length() > depth + CLEAR_M
     }
 }

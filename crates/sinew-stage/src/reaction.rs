@@ -5,8 +5,8 @@ use crate::event::Cause;
 use crate::order::{Order, Resolver};
 use crate::scene::Scene;
 use crate::step::step_of;
-use sinew_control::OrderError;
 use sinew_control::graph::Touchable;
+use sinew_control::{Command, OrderError};
 use sinew_world::Frame;
 
 #[derive(Clone)]
@@ -21,6 +21,7 @@ struct Waiting {
     /// The two as the scene names them.
     names: [String; 2],
     order: Order,
+    command: Command,
     /// Steps until it may fire again; `None` for never.
     repeat_after: Option<u64>,
     /// The first step in which it may fire; `None` when it is done.
@@ -41,11 +42,24 @@ impl Reactions {
                 line: reaction.line,
                 names: reaction.touching.clone(),
                 order: resolver.resolve(&reaction.command)?,
+                command: reaction.command.clone(),
                 repeat_after: reaction.repeat_after_secs.map(|secs| step_of(secs, step_secs).max(1)),
                 ready_at: Some(0),
             });
         }
         Ok(Reactions { list })
+    }
+
+    /// Those that were there before go on as they were: one that fires once does not fire again.
+    #[must_use]
+    pub fn continued(mut self, before: &Reactions) -> Reactions {
+        for waiting in &mut self.list {
+            let key = |one: &Waiting| (one.names.clone(), one.command.clone(), one.repeat_after);
+            if let Some(known) = before.list.iter().find(|one| key(one) == key(waiting)) {
+                waiting.ready_at = known.ready_at;
+            }
+        }
+        self
     }
 
     /// Orders of those whose touch begins, with the cause.

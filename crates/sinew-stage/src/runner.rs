@@ -214,7 +214,7 @@ impl Runner {
     /// The take of the run so far, if it is kept.
     pub fn take(&self) -> Option<Take> {
         let trace = self.trace.as_ref()?;
-        let mut take = Take::of(self.stage.scene());
+        let mut take = self.stage.empty_take();
         take.commands = self.stage.record().to_vec();
         (take.steps, take.hash) = (self.stage.frame().step, self.stage.hash());
         take.trace = Some(HashTrace { every_steps: TRACE_STEPS, hashes: trace.clone() });

@@ -1,34 +1,30 @@
 //! The snapshot of the frame for scripts.
 
 use crate::cast::Cast;
-use crate::scene::{JointKind, Scene};
+use crate::scene::Scene;
 use sinew_body::humanoid::Node;
 use sinew_script::{
     CharacterNames, CharacterState, Contact, JointName, JointState, Names, ObjectState, PartState, Snapshot, Thing,
 };
-use sinew_world::{CharacterId, Entity, PropJointId, World};
+use sinew_world::{Entity, Frame, World};
 
-/// Names that scripts can use.
-pub(crate) fn names(scene: &Scene, cast: &Cast) -> Names {
+/// Names that scripts can use, in the slots of the frame; a vacant slot has an empty name.
+pub(crate) fn names(scene: &Scene, cast: &Cast, frame: &Frame) -> Names {
     let with = |keys: Vec<String>, more: &[&str]| -> Vec<String> {
         more.iter().map(|name| (*name).to_owned()).chain(keys).collect()
     };
-    let characters = cast.characters().iter().enumerate().map(|(index, name)| CharacterNames {
-        name: name.clone(),
-        aliases: cast
-            .aliases(CharacterId::first_in(index))
-            .map(|(alias, node)| (alias.clone(), node.part().name().to_owned()))
-            .collect(),
+    let characters = frame.character_ids.iter().map(|id| {
+        let Some(id) = *id else { return CharacterNames::default() };
+        let alias = |(alias, node): (&String, Node)| (alias.clone(), node.part().name().to_owned());
+        CharacterNames { name: cast.character_name(id).to_owned(), aliases: cast.aliases(id).map(alias).collect() }
     });
-    let joints = scene
-        .joints
-        .iter()
-        .map(|(name, joint)| JointName { name: name.clone(), turns: joint.kind == JointKind::Hinge });
+    let objects = frame.prop_ids.iter().map(|id| id.map_or("", |id| cast.prop_name(id)).to_owned());
+    let joints = cast.joints().map(|(id, name)| JointName { name: name.to_owned(), turns: cast.is_hinge(id) });
     let trackers = sinew_control::tracker::TrackerKind::ALL.map(|kind| kind.name().to_owned());
     Names {
         parts: Node::ALL.map(|node| node.part().name().to_owned()).to_vec(),
         characters: characters.collect(),
-        objects: cast.props().to_vec(),
+        objects: objects.collect(),
         joints: joints.collect(),
         poses: with(scene.poses.keys().cloned().collect(), &["stand"]),
         graphs: scene.graphs.keys().cloned().collect(),
@@ -46,8 +42,8 @@ fn thing(entity: Entity) -> Thing {
     }
 }
 
-/// The present world; `hinges` says which joints of the scene are hinges.
-pub(crate) fn snapshot(world: &World, hinges: &[bool]) -> Snapshot {
+/// The present world, in the order of [`names`].
+pub(crate) fn snapshot(world: &World, cast: &Cast) -> Snapshot {
     let frame = world.frame();
     let characters = frame.characters.iter().enumerate().map(|(index, character)| CharacterState {
         parts: character
@@ -75,9 +71,9 @@ pub(crate) fn snapshot(world: &World, hinges: &[bool]) -> Snapshot {
         rotation: prop.rotation.into(),
         spin: prop.angular_velocity.into(),
     });
-    let joints = hinges.iter().enumerate().map(|(joint, &turns)| {
-        let state = world.prop_joint(PropJointId::first_in(joint));
-        let place = if turns { state.place.to_degrees() } else { state.place };
+    let joints = cast.joints().map(|(joint, _)| {
+        let state = world.prop_joint(joint);
+        let place = if cast.is_hinge(joint) { state.place.to_degrees() } else { state.place };
         JointState { place, speed: state.speed, is_whole: state.is_whole }
     });
     let contacts = frame.contacts.iter().map(|contact| Contact {

@@ -1,8 +1,8 @@
 //! Python controllers on the stage: started, stepped, reloaded, stopped.
 
 use crate::Stage;
+use crate::actor::Actor;
 use crate::event::{Cause, Effect};
-use crate::scene::JointKind;
 use crate::script_snapshot::{names, snapshot};
 use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 use sinew_script::{Script, ScriptHost, ScriptState, StartInfo};
@@ -41,11 +41,10 @@ impl Stage {
 
     /// The name of what a controller runs.
     pub(crate) fn owner_name(&self, owner: Owner) -> String {
-        let name = match owner {
-            Owner::Character(character) => self.cast.characters().get(character.slot()),
-            Owner::Prop(prop) => self.cast.props().get(prop.slot()),
-        };
-        name.cloned().unwrap_or_default()
+        match owner {
+            Owner::Character(character) => self.cast.character_name(character).to_owned(),
+            Owner::Prop(prop) => self.cast.prop_name(prop).to_owned(),
+        }
     }
 
     pub(crate) fn start_script(&self, name: &str, own: String) -> Result<Running, OrderError> {
@@ -59,7 +58,7 @@ impl Stage {
             class: spec.class.clone().unwrap_or_else(|| name.to_owned()),
             own,
             seed: self.scene.stage.seed,
-            names: names(&self.scene, &self.cast),
+            names: names(&self.scene, &self.cast, self.world.frame()),
         };
         let host = self.host.clone().ok_or_else(|| failed(ScriptHost::missing()))?;
         let script = Script::start(host, &info).map_err(|error| failed(error.to_string()))?;
@@ -78,7 +77,7 @@ impl Stage {
     /// Whether a controller is to be called.
     fn is_called(&mut self, owner: Owner) -> bool {
         let is_heard = match owner {
-            Owner::Character(character) => self.actors[character.slot()].hears_scripts(),
+            Owner::Character(character) => self.actors.get(&character).is_some_and(Actor::hears_scripts),
             Owner::Prop(_) => true,
         };
         is_heard && self.running(owner).is_some_and(|running| running.script.is_running())
@@ -127,8 +126,7 @@ impl Stage {
         if !owners.iter().any(|&owner| self.is_called(owner)) {
             return;
         }
-        let hinges: Vec<bool> = self.scene.joints.values().map(|joint| joint.kind == JointKind::Hinge).collect();
-        let seen = snapshot(&self.world, &hinges);
+        let seen = snapshot(&self.world, &self.cast);
         for owner in owners {
             if !self.is_called(owner) || self.is_to_be_killed(owner, step) {
                 continue;
@@ -190,6 +188,6 @@ mod tests {
         assert_eq!(event.cause, cause);
         let Effect::Refused(error) = &event.effect else { panic!("it is refused: {}", event.effect) };
         assert_eq!(error.kind(), OrderErrorKind::OutOfRange);
-        assert_eq!(stage.actors[0].gain(None), 1.0);
+        assert!(stage.actors.values().all(|actor| actor.gain(None) == 1.0));
     }
 }

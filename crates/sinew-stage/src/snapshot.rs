@@ -1,6 +1,7 @@
 //! The whole state of a stage in memory: taken between two steps, restored to the same bits.
 
 use crate::actor::Actor;
+use crate::cast::Cast;
 use crate::event::Events;
 use crate::order::{Order, ShapeChoice};
 use crate::reaction::Reactions;
@@ -24,9 +25,13 @@ use std::sync::Arc;
 /// [`Take`](crate::Take).
 #[derive(Clone)]
 pub struct StageSnapshot {
+    /// The scene that the stage was made from.
     scene: Arc<Scene>,
+    /// The scene that ran, as edited, and its cast.
+    running_scene: Arc<Scene>,
+    cast: Cast,
     world: World,
-    actors: Vec<Actor>,
+    actors: BTreeMap<CharacterId, Actor>,
     timed_effects: TimedEffects,
     shapes: BTreeMap<(CharacterId, Node), (ShapeChoice, PartShape)>,
     events: Events,
@@ -48,7 +53,7 @@ pub struct StageSnapshot {
 pub enum RestoreError {
     /// The snapshot is of another scene, or of the same one with other files or values. Nothing was changed.
     #[error(
-        "the snapshot was taken of another scene, or of this one with other files or --set values; load that scene"
+        "the snapshot was taken of another scene, or of this one with other files or other values set; load that scene"
     )]
     OtherScene,
     /// A controller's process does not start. All else was restored; the character or prop has no controller.
@@ -131,7 +136,9 @@ impl Stage {
     /// [`Timeline`](crate::Timeline), which knows the commands.
     pub(crate) fn snapshot_of_run(&self) -> StageSnapshot {
         StageSnapshot {
-            scene: Arc::clone(&self.scene),
+            scene: Arc::clone(&self.first_scene),
+            running_scene: Arc::clone(&self.scene),
+            cast: self.cast.clone(),
             world: self.world.clone(),
             actors: self.actors.clone(),
             timed_effects: self.timed_effects.clone(),
@@ -156,9 +163,25 @@ impl Stage {
     /// # Errors
     /// When the snapshot is of another scene: nothing is changed then. When a controller cannot be restored: all else is.
     pub fn restore(&mut self, snapshot: &StageSnapshot) -> Result<(), RestoreError> {
-        if !snapshot.is_of(&self.scene) {
+        if !snapshot.is_of(&self.first_scene) {
             return Err(RestoreError::OtherScene);
         }
+        self.put_back(snapshot);
+        self.inbox.clone_from(&snapshot.inbox);
+        self.history.clone_from(&snapshot.history);
+        self.record.clone_from(&snapshot.record);
+        let restored = self.restore_scripts(&snapshot.scripts);
+        let lost = snapshot.lost();
+        if !lost.is_empty() {
+            self.note(Cause::Restored, Effect::StateLost { names: lost });
+        }
+        restored
+    }
+
+    /// As [`Stage::restore`], without what came from outside and without controllers.
+    pub(crate) fn put_back(&mut self, snapshot: &StageSnapshot) {
+        self.scene = Arc::clone(&snapshot.running_scene);
+        self.cast.clone_from(&snapshot.cast);
         self.world = snapshot.world.clone();
         self.actors.clone_from(&snapshot.actors);
         self.timed_effects.clone_from(&snapshot.timed_effects);
@@ -170,15 +193,6 @@ impl Stage {
         self.keys.clone_from(&snapshot.keys);
         self.timed.clone_from(&snapshot.timed);
         self.hash.clone_from(&snapshot.hash);
-        self.inbox.clone_from(&snapshot.inbox);
-        self.history.clone_from(&snapshot.history);
-        self.record.clone_from(&snapshot.record);
-        let restored = self.restore_scripts(&snapshot.scripts);
-        let lost = snapshot.lost();
-        if !lost.is_empty() {
-            self.note(Cause::Restored, Effect::StateLost { names: lost });
-        }
-        restored
     }
 
     /// Asks every controller for its state. One that does not answer is stopped; the take says so, as of a step.

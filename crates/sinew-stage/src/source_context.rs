@@ -103,9 +103,9 @@ impl SourceContext for Context<'_> {
 impl Stage {
     /// Follows another source from now on, from where the body is.
     pub(crate) fn follow_source(&mut self, id: CharacterId, source: &SourceSpec) -> Result<(), OrderError> {
-        let Some(spec) = self.scene.characters.values().nth(id.slot()) else { return Ok(()) };
+        let spec = self.spec(id)?;
         let frame = self.world.frame();
-        let actor = &self.actors[id.slot()];
+        let actor = self.actor(id)?;
         let context = Context {
             scene: &self.scene,
             spec,
@@ -114,12 +114,12 @@ impl Stage {
             first: actor.sources.first(),
             step_secs: self.world.settings().step_secs(),
             clips: &[],
-            running: Some((frame.time_secs, actor.body(), frame.characters[id.slot()].pose())),
+            running: Some((frame.time_secs, actor.body(), self.character_frame(id)?.pose())),
         };
         let nothing = || OrderError::new(OrderErrorKind::Contradiction, "it states no source of its own");
         let own = source.build(&context)?.ok_or_else(nothing)?;
         let now_secs = frame.time_secs;
-        self.actors[id.slot()].sources.follow_from(own, now_secs);
+        self.actor_mut(id)?.sources.follow_from(own, now_secs);
         Ok(())
     }
 }

@@ -8,26 +8,32 @@ use crate::build::{self, StageError, StageErrorKind};
 use crate::cast::Cast;
 use crate::event::{Cause, CharacterEffect, Effect, Event, Events};
 use crate::order::{Order, Resolver, ShapeChoice, Undo};
+use crate::populate::{Newcomers, at, populate};
 use crate::reaction::Reactions;
 use crate::run_hash::RunHash;
-use crate::scene::{KeyBinding, Scene};
+use crate::scene::{CharacterSpec, HeldFile, KeyBinding, PropSpec, Scene};
 use crate::scripts::{Owner, Running};
 use crate::step::step_of;
-use crate::take::{self, Stamped};
+use crate::take::{self, Stamped, Take};
 use crate::timed_effect::TimedEffects;
 use sinew_body::humanoid::Node;
-use sinew_control::{Action, Command, OrderError};
+use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 use sinew_script::ScriptHost;
-use sinew_world::{CharacterId, Frame, PartShape, PropJointId, World};
+use sinew_world::{CharacterFrame, CharacterId, Frame, PartShape, PropId, PropJointId, Solid, World};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A scene that runs.
 pub struct Stage {
+    /// The scene that it was made from.
+    pub(crate) first_scene: Arc<Scene>,
+    /// The scene that runs: as edited.
     pub(crate) scene: Arc<Scene>,
+    /// Files that edits have read.
+    pub(crate) edit_files: BTreeMap<String, HeldFile>,
     pub(crate) cast: Cast,
     pub(crate) world: World,
-    pub(crate) actors: Vec<Actor>,
+    pub(crate) actors: BTreeMap<CharacterId, Actor>,
     pub(crate) timed_effects: TimedEffects,
     /// Shapes that parts have in place of their own.
     pub(crate) shapes: BTreeMap<(CharacterId, Node), (ShapeChoice, PartShape)>,
@@ -75,28 +81,18 @@ impl Stage {
     /// A clip cannot be read, a pose does not fit its body, a shape is degenerate or a script does not start.
     pub fn new(scene: Scene, host: Option<ScriptHost>) -> Result<Stage, StageError> {
         let scene = Arc::new(scene);
-        let cast = Cast::of(&scene);
+        let mut cast = Cast::default();
         let mut world = World::new(scene.stage.world_settings());
-        let actors = build::populate(&scene, &cast, &mut world)?;
+        let all = Newcomers::all(&scene);
+        let actors = populate(&scene, &mut cast, &mut world, &all)?;
         let step_secs = world.settings().step_secs();
-        let wrong = |list: &str, error: OrderError| StageError {
-            kind: StageErrorKind::Refused,
-            file: scene.file_name().to_owned(),
-            place: list.to_owned(),
-            problem: error.to_string(),
-        };
-        let resolver = Resolver { scene: &scene, cast: &cast };
-        let mut timed = Vec::new();
-        for one in &scene.at {
-            let order = resolver.resolve(&one.command).map_err(|error| wrong("at", error))?;
-            timed.push((step_of(one.at_secs, step_secs), one.line, order));
-        }
-        // Those of one step keep the file's order; the next one lies at the end.
-        timed.sort_by_key(|(step, ..)| *step);
-        timed.reverse();
-        let reactions = Reactions::of(&scene, &cast).map_err(|error| wrong("when", error))?;
+        let timed = timed_orders(&scene, &cast, 0, step_secs)?;
+        let reactions = Reactions::of(&scene, &cast)
+            .map_err(|error| at(&scene, StageErrorKind::Refused, "when".to_owned(), error))?;
         let keys = scene.keys.clone();
         let mut stage = Stage {
+            first_scene: Arc::clone(&scene),
+            edit_files: BTreeMap::new(),
             scene,
             cast,
             world,
@@ -118,7 +114,9 @@ impl Stage {
             timed,
             hash: RunHash::new(),
         };
-        build::begin(&mut stage)?;
+        let first = Arc::clone(&stage.scene);
+        let all = Newcomers::all(&first);
+        build::begin(&mut stage, &all.characters, &all.props)?;
         Ok(stage)
     }
 
@@ -167,12 +165,15 @@ impl Stage {
     /// One physics step.
     pub fn step(&mut self) {
         let step = self.world.frame().step;
+        self.edit_as_prescribed(step);
         self.end_timed_effects(step);
         while let Some((_, line, order)) = self.timed.pop_if(|(at, ..)| *at <= step) {
             self.carry_out(&order, Cause::Timeline { line });
         }
         let prescribed = take::due(self.prescribed.as_deref().unwrap_or_default(), step);
-        let prescribed = prescribed.iter().filter(|one| !matches!(one.command.action, Action::ScriptKilled { .. }));
+        let is_command =
+            |one: &&Stamped| !matches!(one.command.action, Action::ScriptKilled { .. } | Action::Edit { .. });
+        let prescribed = prescribed.iter().filter(is_command);
         self.inbox.extend(prescribed.map(|stamped| (stamped.command.clone(), false)));
         for (command, is_undoable) in std::mem::take(&mut self.inbox) {
             // What is refused here is not recorded: a take holds only what it can give again.
@@ -227,7 +228,7 @@ impl Stage {
     /// # Errors
     /// As [`Stage::new`].
     pub(crate) fn again(&self) -> Result<Stage, StageError> {
-        Stage::new(Scene::clone(&self.scene), self.host.clone())
+        Stage::new(Scene::clone(&self.first_scene), self.host.clone())
     }
 
     /// Steps the world on this many threads from now on, 1 to 64, and says on how many: always 1 without the feature `threads`.
@@ -252,9 +253,22 @@ impl Stage {
         self.shapes.get(&(character, node)).map(|(_, shape)| shape)
     }
 
-    /// The scene that it was made from.
+    /// The scene that runs: the one that it was made from, until something comes, goes or is read anew by an
+    /// [`edit`](Stage::edit).
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The scene that it was made from, whatever was edited since.
+    pub fn first_scene(&self) -> &Scene {
+        &self.first_scene
+    }
+
+    /// An empty take of this stage: the scene that it was made from, and the files that edits have read.
+    pub(crate) fn empty_take(&self) -> Take {
+        let mut take = Take::of(&self.first_scene);
+        take.add_files(&self.edit_files);
+        take
     }
 
     /// Names of who and what is on it.
@@ -279,7 +293,7 @@ impl Stage {
 
     /// Which tracker, pose, graph state and layers a character has now.
     pub fn state_of(&self, character: CharacterId) -> Option<&Actor> {
-        self.actors.get(character.slot())
+        self.actors.get(&character)
     }
 
     fn remember(&mut self, orders: Vec<Order>) {
@@ -287,6 +301,31 @@ impl Stage {
             self.history.remove(0);
         }
         self.history.push(orders);
+    }
+
+    /// The actor of a character.
+    pub(crate) fn actor(&self, id: CharacterId) -> Result<&Actor, OrderError> {
+        self.actors.get(&id).ok_or_else(|| gone(id))
+    }
+
+    /// The actor of a character, to change it.
+    pub(crate) fn actor_mut(&mut self, id: CharacterId) -> Result<&mut Actor, OrderError> {
+        self.actors.get_mut(&id).ok_or_else(|| gone(id))
+    }
+
+    /// The table of a character in the scene.
+    pub(crate) fn spec(&self, id: CharacterId) -> Result<&CharacterSpec, OrderError> {
+        self.scene.characters.get(self.cast.character_name(id)).ok_or_else(|| gone(id))
+    }
+
+    /// A character as it is now.
+    pub(crate) fn character_frame(&self, id: CharacterId) -> Result<&CharacterFrame, OrderError> {
+        self.world.frame().character(id).ok_or_else(|| gone(id))
+    }
+
+    /// The shape of a prop of the scene.
+    pub(crate) fn solid_of(&self, prop: PropId) -> Option<Solid> {
+        self.scene.props.get(self.cast.prop_name(prop)).and_then(PropSpec::solid)
     }
 
     pub(crate) fn note(&mut self, cause: Cause, effect: Effect) {
@@ -300,11 +339,12 @@ impl Stage {
         for push in &self.timed_effects.pushes {
             match push.on {
                 sinew_world::Entity::Part(character, node) => {
-                    let at = push.at.map(|at| world.frame().characters[character.slot()].part(node).point(at));
+                    let at =
+                        push.at.and_then(|at| world.frame().character(character).map(|seen| seen.part(node).point(at)));
                     world.push_part(character, node, push.force, at);
                 }
                 sinew_world::Entity::Prop(prop) => {
-                    let at = push.at.map(|at| world.frame().props[prop.slot()].point(at));
+                    let at = push.at.and_then(|at| world.frame().prop(prop).map(|seen| seen.point(at)));
                     world.push_prop(prop, push.force, at);
                 }
                 sinew_world::Entity::Floor => {}
@@ -313,13 +353,15 @@ impl Stage {
     }
 
     fn note_resets(&mut self) {
-        for at in 0..self.actors.len() {
-            let index = self.actors[at].id;
-            if self.world.frame().characters[index.slot()].was_reset {
-                self.actors[index.slot()].reset();
-                let name = self.cast.characters()[index.slot()].clone();
-                self.note(Cause::BodyDiverged, Effect::of(name, CharacterEffect::PutBack));
+        let frame = self.world.frame();
+        let was_reset = |id: &CharacterId| frame.character(*id).is_some_and(|seen| seen.was_reset);
+        let reset: Vec<CharacterId> = self.actors.keys().copied().filter(was_reset).collect();
+        for id in reset {
+            if let Some(actor) = self.actors.get_mut(&id) {
+                actor.reset();
             }
+            let name = self.cast.character_name(id).to_owned();
+            self.note(Cause::BodyDiverged, Effect::of(name, CharacterEffect::PutBack));
         }
     }
 }
@@ -328,14 +370,42 @@ impl Stage {
     /// Joints that broke in the last step; those that were cut are noted by the command.
     fn note_breaks(&mut self) {
         self.note_broken_holds();
-        for at in 0..self.cast.joints().len() {
-            let joint = PropJointId::first_in(at);
-            if !self.world.prop_joint(joint).is_whole && self.broken.insert(joint) {
-                let name = self.cast.joints()[at].clone();
-                self.note(Cause::JointOverload { joint: name.clone() }, Effect::JointBreaks { joint: name });
-            }
+        let is_news =
+            |(joint, _): &(PropJointId, &str)| !self.world.prop_joint(*joint).is_whole && !self.broken.contains(joint);
+        let news: Vec<(PropJointId, String)> =
+            self.cast.joints().filter(is_news).map(|(joint, name)| (joint, name.to_owned())).collect();
+        for (joint, name) in news {
+            self.broken.insert(joint);
+            self.note(Cause::JointOverload { joint: name.clone() }, Effect::JointBreaks { joint: name });
         }
     }
+}
+
+/// The scene's own commands from a step on, the next one last.
+pub(crate) fn timed_orders(
+    scene: &Scene,
+    cast: &Cast,
+    from_step: u64,
+    step_secs: f64,
+) -> Result<Vec<(u64, usize, Order)>, StageError> {
+    let resolver = Resolver { scene, cast };
+    let mut timed = Vec::new();
+    for one in &scene.at {
+        let order = resolver
+            .resolve(&one.command)
+            .map_err(|error| at(scene, StageErrorKind::Refused, "at".to_owned(), error))?;
+        timed.push((step_of(one.at_secs, step_secs), one.line, order));
+    }
+    timed.retain(|(step, ..)| *step >= from_step);
+    // Those of one step keep the file's order; the next one lies at the end.
+    timed.sort_by_key(|(step, ..)| *step);
+    timed.reverse();
+    Ok(timed)
+}
+
+/// The error for a character that was removed.
+pub(crate) fn gone(id: CharacterId) -> OrderError {
+    OrderError::new(OrderErrorKind::NotFound, format!("character {id} is not there any more"))
 }
 
 /// Commands that are remembered for undo.

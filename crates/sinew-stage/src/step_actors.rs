@@ -7,6 +7,7 @@ use crate::scene::CharacterSpec;
 use sinew_control::graph::Cause as GraphCause;
 use sinew_control::source::{SourceEvent, StreamChange};
 use sinew_control::tracker::{KdTracker, KinematicTracker, Limp, PdTracker, ResponseTracker, Tracker, TrackerKind};
+use sinew_control::{OrderError, OrderErrorKind};
 use sinew_response::Settings;
 use sinew_world::{CharacterId, PropId};
 
@@ -15,14 +16,17 @@ impl Stage {
     pub(crate) fn step_actors(&mut self) {
         let frame_secs = self.frame_secs();
         let mut events = Vec::new();
-        for at in 0..self.actors.len() {
-            let index = self.actors[at].id;
+        let ids: Vec<CharacterId> = self.actors.keys().copied().collect();
+        for index in ids {
             self.end_passing(index);
-            self.actors[index.slot()].advance(&self.world, &mut events);
+            let Some(actor) = self.actors.get_mut(&index) else { continue };
+            actor.advance(&self.world, &mut events);
             for event in events.drain(..) {
                 self.tell(index, event);
             }
-            self.actors[index.slot()].follow(&mut self.world, frame_secs);
+            if let Some(actor) = self.actors.get_mut(&index) {
+                actor.follow(&mut self.world, frame_secs);
+            }
         }
     }
 
@@ -46,7 +50,7 @@ impl Stage {
             }
             SourceEvent::Reach(arrival) => return self.reach_arrives(index, &arrival),
         };
-        let name = self.cast.characters()[index.slot()].clone();
+        let name = self.cast.character_name(index).to_owned();
         self.note(cause, Effect::of(name, effect));
     }
 
@@ -58,18 +62,26 @@ impl Stage {
     ///
     /// # Errors
     /// When the response finds no coordinates in the motion; all stays as it was.
-    pub(crate) fn set_tracker(&mut self, index: CharacterId, kind: TrackerKind) -> Result<(), String> {
-        let Some(spec) = self.scene.characters.values().nth(index.slot()) else { return Ok(()) };
-        let tracker = self.tracker(index, spec, kind)?;
-        self.actors[index.slot()].set_tracker(tracker, spec.position_m[1], &mut self.world);
+    pub(crate) fn set_tracker(&mut self, index: CharacterId, kind: TrackerKind) -> Result<(), OrderError> {
+        let tracker = self.tracker(index, self.spec(index)?, kind)?;
+        let floor_m = self.spec(index)?.position_m[1];
+        if let Some(actor) = self.actors.get_mut(&index) {
+            actor.set_tracker(tracker, floor_m, &mut self.world);
+        }
         Ok(())
     }
 
     /// A tracker for a character as the scene has it, at rest where the body is now.
-    fn tracker(&self, index: CharacterId, spec: &CharacterSpec, kind: TrackerKind) -> Result<Box<dyn Tracker>, String> {
-        let (actor, frame_secs) = (&self.actors[index.slot()], self.frame_secs());
-        let now = self.world.frame().characters[index.slot()].pose();
-        let prop = |name: &String| self.cast.prop(name).ok_or_else(|| format!("no prop `{name}`"));
+    fn tracker(
+        &self,
+        index: CharacterId,
+        spec: &CharacterSpec,
+        kind: TrackerKind,
+    ) -> Result<Box<dyn Tracker>, OrderError> {
+        let (actor, frame_secs) = (self.actor(index)?, self.frame_secs());
+        let now = self.character_frame(index)?.pose();
+        let not_found = |problem: String| OrderError::new(OrderErrorKind::NotFound, problem);
+        let prop = |name: &String| self.cast.prop(name).ok_or_else(|| not_found(format!("no prop `{name}`")));
         Ok(match kind {
             TrackerKind::Kinematic => Box::new(KinematicTracker::new(frame_secs, &now)),
             TrackerKind::Pd => Box::new(PdTracker::with(actor.springs().clone())),
@@ -84,15 +96,16 @@ impl Stage {
                 let motion = actor.sources().own().motion();
                 let gravity_m_s2 = self.world.settings().gravity_m_s2;
                 let settings = Settings { time_step_secs: frame_secs, gravity_m_s2, ..Settings::default() };
-                let prepared = prepared(spec, actor.body(), motion, settings)?;
+                let prepared = prepared(spec, actor.body(), motion, settings)
+                    .map_err(|problem| OrderError::new(OrderErrorKind::WrongState, problem))?;
                 let (basis, settings) = (prepared.basis().clone(), prepared.stable_settings());
                 let mut tracker = ResponseTracker::new(actor.body().clone(), basis, settings, &now);
                 tracker.stand_on(&self.world, spec.response.stands_on.as_ref().map(prop).transpose()?);
                 if let Some(part) = &spec.response.keep_upright {
-                    let node = spec.node(part).ok_or_else(|| format!("no part or alias `{part}`"))?;
+                    let node = spec.node(part).ok_or_else(|| not_found(format!("no part or alias `{part}`")))?;
                     tracker.keep_upright(Some(node));
                 }
-                tracker.avoid(&spec.response.avoid.iter().map(prop).collect::<Result<Vec<PropId>, String>>()?);
+                tracker.avoid(&spec.response.avoid.iter().map(prop).collect::<Result<Vec<PropId>, OrderError>>()?);
                 Box::new(tracker)
             }
         })

@@ -1,5 +1,6 @@
 //! Things that last for a time: the orders that take them back, and when.
 
+use crate::cast::Cast;
 use crate::fade::{Fade, Weighs};
 use crate::order::{CharacterOrder, Order, StageOrder};
 use glam::DVec3;
@@ -52,6 +53,13 @@ impl TimedEffects {
         let due = self.endings.iter().filter(|(at, _)| *at <= step).map(|(_, order)| order.clone()).collect();
         self.endings.retain(|(at, _)| *at > step);
         due
+    }
+
+    /// What concerns somebody who is gone is forgotten.
+    pub fn forget_stale(&mut self, cast: &Cast) {
+        self.endings.retain(|(_, order)| order.stale(cast).is_none());
+        self.pushes.retain(|push| cast.has(push.on));
+        self.fades.retain(|fade| cast.has(fade.on()));
     }
 
     /// Gravity of single parts of a character no longer comes back: a command for all of them came.

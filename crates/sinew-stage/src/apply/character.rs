@@ -18,12 +18,12 @@ impl Stage {
     pub(super) fn apply_to_character(&mut self, id: CharacterId, order: &O) -> Outcome {
         let back = |order: O| Undo::Orders(vec![to_character(id, order)]);
         if let Some(asked) = order.asks() {
-            self.actors[id.slot()].tracker().kind().check(asked)?;
+            self.actor(id)?.tracker().kind().check(asked)?;
         }
         let done = match order {
             O::Pose { name } => {
                 let before = self.source_order(id);
-                if !self.actors[id.slot()].sources.aim(name)? {
+                if !self.actor_mut(id)?.sources.aim(name)? {
                     // It aims there already: a script says so at every step.
                     return Ok(None);
                 }
@@ -31,29 +31,29 @@ impl Stage {
             }
             O::Graph { name, state } => {
                 let before = self.source_order(id);
-                self.actors[id.slot()].sources.start_graph(name, state.as_deref())?;
+                self.actor_mut(id)?.sources.start_graph(name, state.as_deref())?;
                 (E::Graph { graph: name.clone() }, before.map_or(Undo::Impossible, back))
             }
             O::Signal { name } => {
-                self.actors[id.slot()].sources.signal(name);
+                self.actor_mut(id)?.sources.signal(name);
                 (E::Signal { signal: name.clone() }, Undo::Impossible)
             }
             O::LimbReach { node, target } => {
                 let limb = node.or_else(|| self.holding_part(id)).unwrap_or(Node::RightHand);
                 let effector = self.effector(id, limb);
-                let poses = self.actors[id.slot()].sources.key_poses_mut().ok_or_else(|| wrong_state(NO_KEY_POSES))?;
+                let poses = self.actor_mut(id)?.sources.key_poses_mut().ok_or_else(|| wrong_state(NO_KEY_POSES))?;
                 if !poses.reach(limb, *target, effector)? {
                     return Ok(None);
                 }
                 (E::LimbReaches { node: limb, target: *target }, back(O::LimbRelease { node: Some(limb) }))
             }
             O::LimbRelease { node } => {
-                if let Some(poses) = self.actors[id.slot()].sources.key_poses_mut() {
+                if let Some(poses) = self.actor_mut(id)?.sources.key_poses_mut() {
                     poses.stop_reaching(*node);
                 }
                 (E::ReachEnds, Undo::Impossible)
             }
-            O::Reach(order) => match self.begin_reach(id, order).map_err(wrong_state)? {
+            O::Reach(order) => match self.begin_reach(id, order)? {
                 Some(effect) => (effect, back(O::ReachEnd)),
                 None => return Ok(None),
             },
@@ -66,7 +66,7 @@ impl Stage {
             O::Attach { .. } | O::Detach { .. } => return self.apply_grasp(id, order),
             O::Push { .. } => return self.apply_push(id, order),
             O::Gain { node, factor } => {
-                let actor = &mut self.actors[id.slot()];
+                let actor = self.actor_mut(id)?;
                 let before = O::Gain { node: *node, factor: actor.gain(*node) };
                 actor.set_gain(*node, *factor);
                 (E::Gain { node: *node, factor: *factor }, back(before))
@@ -76,15 +76,15 @@ impl Stage {
             }
             O::Shape { .. } | O::AddShape { .. } | O::RemoveShape { .. } => return self.apply_shape(id, order),
             O::Layer { layer, on } => {
-                let actor = &mut self.actors[id.slot()];
+                let actor = self.actor_mut(id)?;
                 let before = O::Layer { layer: *layer, on: actor.has_layer(*layer) };
                 actor.set_layer(*layer, *on);
                 (E::Layer { layer: *layer, on: *on }, back(before))
             }
             O::Reflex { name, on } => {
-                let actor = &mut self.actors[id.slot()];
+                let actor = self.actor_mut(id)?;
                 let before = O::Reflex { name: name.clone(), on: actor.has_reflex(name) };
-                actor.set_reflex(name, *on).map_err(wrong_state)?;
+                actor.set_reflex(name, *on)?;
                 (E::Reflex { reflex: name.clone(), on: *on }, back(before))
             }
             O::Controller { name } => {
@@ -94,19 +94,19 @@ impl Stage {
             }
             O::Weights { .. } | O::Kd { .. } | O::Pins { .. } => return self.apply_kd(id, order),
             O::Tracker(kind) => {
-                let before = self.actors[id.slot()].tracker().kind();
-                self.set_tracker(id, *kind).map_err(wrong_state)?;
+                let before = self.actor(id)?.tracker().kind();
+                self.set_tracker(id, *kind)?;
                 (E::Tracker(*kind), back(O::Tracker(before)))
             }
             O::Perform(sample) => {
                 // Many a second: what came of them is counted, not told.
                 let now_secs = self.world.frame().time_secs;
-                let performer = self.actors[id.slot()].sources.performer_mut().ok_or_else(no_performer)?;
+                let performer = self.actor_mut(id)?.sources.performer_mut().ok_or_else(no_performer)?;
                 performer.source_mut().receive(sample, now_secs);
                 return Ok(None);
             }
             O::Live { on } => {
-                self.actors[id.slot()].sources.follow_performer(*on)?;
+                self.actor_mut(id)?.sources.follow_performer(*on)?;
                 (E::Live { on: *on }, back(O::Live { on: !*on }))
             }
             O::Source(source) => {
@@ -122,7 +122,7 @@ impl Stage {
     /// The order that would bring back what the character follows now; `None` for a clip or a reach, which do not begin again
     /// where they were left.
     fn source_order(&self, id: CharacterId) -> Option<O> {
-        let actor = self.actors.get(id.slot())?;
+        let actor = self.actors.get(&id)?;
         if actor.sources.performer().is_some_and(Performer::is_followed) {
             return Some(O::Live { on: true });
         }

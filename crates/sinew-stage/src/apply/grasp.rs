@@ -52,7 +52,7 @@ impl Stage {
     pub(crate) fn note_broken_holds(&mut self) {
         for at in 0..self.world.broken_holds().len() {
             let (held, force_n) = self.world.broken_holds()[at];
-            let who = self.cast.characters().get(held.character.slot()).cloned().unwrap_or_default();
+            let who = self.cast.character_name(held.character).to_owned();
             let loses = E::LosesHold { node: held.node, object: self.cast.name_of(held.object) };
             let max_n = held.break_force_n.unwrap_or(0.0);
             self.note(Cause::HoldOverload { force_n, max_n }, Effect::of(who, loses));

@@ -65,9 +65,11 @@ impl Stage {
                 let kd = self.kd(id)?;
                 let changes = kd.has_pins() != *on;
                 kd.set_pins(*on, *fade_secs);
-                // A source that knows no place has the hips stand where they are now.
+                // A source without root motion has the hips stand where they are now.
                 if let Some(frame) = self.world.frame().character(id).filter(|_| *on && changes) {
-                    self.actors[id.slot()].sources.stand_where_it_is(frame);
+                    if let Some(actor) = self.actors.get_mut(&id) {
+                        actor.sources.stand_where_it_is(frame);
+                    }
                 }
                 let other = [to_character(id, O::Pins { on: !*on, fade_secs: FADE_SECS, for_secs: None })];
                 self.end_with(*for_secs, &other);
@@ -79,7 +81,7 @@ impl Stage {
     }
 
     fn kd(&mut self, id: CharacterId) -> Result<&mut KdTracker, OrderError> {
-        self.actors[id.slot()].tracker_as::<KdTracker>().ok_or_else(|| {
+        self.actor_mut(id)?.tracker_as::<KdTracker>().ok_or_else(|| {
             let problem = "it does not follow by kd; give it tracker = \"kd\"";
             OrderError::new(OrderErrorKind::NotHonoured, problem)
         })

@@ -62,12 +62,15 @@ impl Stage {
     /// Carries out an order.
     ///
     /// # Errors
-    /// When the stage is not in a state for it: never for a name or a number. All then stays as it was.
+    /// When the stage is not in a state for it, or something that it names was removed: never for a number. All then stays as it was.
     pub(crate) fn apply(&mut self, order: &Order) -> Result<Applied, OrderError> {
+        if let Some(what) = order.stale(&self.cast) {
+            return Err(OrderError::new(OrderErrorKind::NotFound, format!("{what} is not there any more")));
+        }
         match order {
             Order::Character { id, order } => {
                 let outcome = self.apply_to_character(*id, order)?;
-                let who = || self.cast.characters().get(id.slot()).cloned().unwrap_or_default();
+                let who = || self.cast.character_name(*id).to_owned();
                 Ok(match outcome {
                     Some((effect, undo)) => Applied { effect: Some(Effect::of(who(), effect)), undo },
                     None => Applied { effect: None, undo: Undo::Nothing },

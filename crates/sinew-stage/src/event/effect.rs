@@ -73,6 +73,13 @@ pub enum Effect {
         /// The joint.
         joint: String,
     },
+    /// The scene was edited: something came, went or was read anew.
+    SceneEdited {
+        /// Characters and props that came.
+        came: Vec<String>,
+        /// Characters and props that went.
+        left: Vec<String>,
+    },
     /// A controller continues with a new text.
     Reloaded {
         /// The controller.
@@ -188,6 +195,16 @@ impl fmt::Display for Effect {
             Effect::Motor { joint, on: false } => write!(f, "{joint} is driven no longer"),
             Effect::JointCut { joint } => write!(f, "{joint} is cut"),
             Effect::JointBreaks { joint } => write!(f, "{joint} breaks"),
+            Effect::SceneEdited { came, left } => {
+                f.write_str("the scene is edited")?;
+                if !came.is_empty() {
+                    write!(f, "; new: {}", came.join(", "))?;
+                }
+                if !left.is_empty() {
+                    write!(f, "; gone: {}", left.join(", "))?;
+                }
+                Ok(())
+            }
             Effect::Reloaded { controller } => write!(f, "{controller} goes on with its new text"),
             Effect::ScriptStopped { controller, reason } => write!(f, "{controller} is stopped: {reason}"),
             Effect::ScriptKilled { reason } => write!(f, "stopped: {reason}"),

@@ -6,7 +6,7 @@ use sinew_control::perform::PerformerSample;
 use sinew_control::source::SourceSpec;
 use sinew_control::tracker::{Asked, KdDamping, KdPreset, TrackerKind};
 use sinew_control::{Layer, ReachOrder};
-use sinew_world::Entity;
+use sinew_world::{Entity, PropId};
 use std::fmt;
 
 /// What a character is to do. Ranges are those of [`sinew_control::range`]; `for_secs` is how long it lasts \[s\], `None` for until
@@ -200,7 +200,7 @@ pub enum CharacterOrder {
     /// Follow another source of its own; the one before hands over.
     Source(Box<SourceSpec>),
     /// Reach with the whole body.
-    Reach(ReachOrder),
+    Reach(ReachOrder<PropId>),
     /// Let go of a reach.
     ReachEnd,
     /// A line for the report.

@@ -36,7 +36,9 @@ pub(crate) use resolve_character::FADE_SECS;
 pub use stage_order::StageOrder;
 pub use undo::Undo;
 
-use sinew_world::CharacterId;
+use crate::Cast;
+use sinew_body::humanoid::Node;
+use sinew_world::{CharacterId, Entity, PropId, PropJointId};
 
 /// A command whose names and numbers are known to be good.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +55,34 @@ pub enum Order {
 }
 
 impl Order {
+    /// What it names that is not there any more; `None` when all is.
+    pub(crate) fn stale(&self, cast: &Cast) -> Option<String> {
+        let gone = |entity: Entity| (!cast.has(entity)).then_some(entity);
+        let prop = |prop: PropId| gone(Entity::Prop(prop)).map(|_| format!("prop {prop}"));
+        let entity = |one: Entity| match one {
+            Entity::Prop(id) => prop(id),
+            Entity::Part(id, _) => gone(one).map(|_| format!("character {id}")),
+            Entity::Floor => None,
+        };
+        let joint = |joint: PropJointId| (!cast.has_joint(joint)).then(|| format!("joint {joint}"));
+        match self {
+            Order::Character { id, order } => entity(Entity::Part(*id, Node::Hips)).or_else(|| match order {
+                CharacterOrder::Attach { object: Some(object), .. }
+                | CharacterOrder::Detach { object: Some(object), .. } => entity(*object),
+                CharacterOrder::Reach(order) => order.object.iter().chain(&order.avoid).find_map(|id| prop(*id)),
+                _ => None,
+            }),
+            Order::Stage(order) => match order {
+                StageOrder::PlaceProp { prop: id, .. }
+                | StageOrder::AccelerateProp { prop: id, .. }
+                | StageOrder::PushProp { prop: id, .. }
+                | StageOrder::PropGravity { prop: id, .. } => prop(*id),
+                StageOrder::Motor { joint: id, .. } | StageOrder::CutJoint { joint: id } => joint(*id),
+                StageOrder::Reload { .. } | StageOrder::ScriptKilled { .. } | StageOrder::Say { .. } => None,
+            },
+        }
+    }
+
     /// Whether two orders set the same thing, to whatever value: the newer one then replaces the older.
     pub(crate) fn sets_the_same(&self, other: &Order) -> bool {
         match (self, other) {

@@ -67,8 +67,7 @@ impl<'a> Resolver<'a> {
 
     /// The table of a character.
     pub(super) fn spec(&self, id: CharacterId) -> Result<&'a CharacterSpec, OrderError> {
-        let name = self.cast.characters().get(id.slot());
-        let spec = name.and_then(|name| self.scene.characters.get(name));
+        let spec = self.scene.characters.get(self.cast.character_name(id));
         spec.ok_or_else(|| OrderError::new(Kind::NotFound, format!("there is no character {id} any more")))
     }
 

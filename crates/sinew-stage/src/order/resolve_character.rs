@@ -7,8 +7,8 @@ use glam::DVec3;
 use sinew_body::humanoid::{Limb, Node};
 use sinew_control::source::SourceSpec;
 use sinew_control::tracker::TrackerKind;
-use sinew_control::{Action, OrderError, OrderErrorKind as Kind, range};
-use sinew_world::CharacterId;
+use sinew_control::{Action, OrderError, OrderErrorKind as Kind, ReachOrder, range};
+use sinew_world::{CharacterId, PropId};
 
 /// Gains and switches of the tracker `kd` fade over this time when a command does not say \[s\].
 pub(crate) const FADE_SECS: f64 = 0.5;
@@ -108,15 +108,17 @@ impl Resolver<'_> {
                 self.check_source(id, source)?;
                 O::Source(source.clone())
             }
-            Action::Reach(order) => {
-                order.check()?;
-                order.object.iter().chain(&order.avoid).try_for_each(|name| self.prop(name).map(drop))?;
-                O::Reach(order.clone())
-            }
+            Action::Reach(order) => O::Reach(self.reach(order)?),
             Action::ReachEnd {} => O::ReachEnd,
             Action::Say { text } => O::Say { text: words(text, MAX_WORDS)? },
             _ => return Err(OrderError::new(Kind::WrongTarget, "it is not for a character; remove `character`")),
         })
+    }
+
+    /// A reach with the ids of its objects.
+    pub(crate) fn reach(&self, order: &ReachOrder) -> Result<ReachOrder<PropId>, OrderError> {
+        order.check()?;
+        order.try_map(|name| self.prop(name))
     }
 
     fn kd_order(&self, id: CharacterId, action: &Action) -> Result<CharacterOrder, OrderError> {

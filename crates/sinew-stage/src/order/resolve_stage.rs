@@ -68,6 +68,9 @@ impl Resolver<'_> {
             Action::ScriptKilled { name, reason } => {
                 O::ScriptKilled { controller: self.controller(name)?, reason: words(reason, MAX_WORDS)? }
             }
+            Action::Edit { .. } => {
+                return Err(OrderError::new(Kind::NotPermitted, "no command edits a scene; use Stage::edit"));
+            }
             Action::Say { text } => O::Say { text: words(text, MAX_WORDS)? },
             _ => return Err(OrderError::new(Kind::WrongTarget, "it is for a character; add character")),
         })

@@ -11,7 +11,7 @@ impl Order {
     pub fn to_command(&self, cast: &Cast) -> Command {
         match self {
             Order::Character { id, order } => {
-                let name = cast.characters().get(id.slot()).cloned().unwrap_or_default();
+                let name = cast.character_name(*id).to_owned();
                 Command::to(name, character_action(order, cast))
             }
             Order::Stage(order) => Command::stage(stage_action(order, cast)),
@@ -73,7 +73,11 @@ fn character_action(order: &CharacterOrder, cast: &Cast) -> Action {
         O::Perform(sample) => Action::Perform { sample },
         O::Live { on } => Action::Live { on },
         O::Source(source) => Action::Source { source },
-        O::Reach(order) => Action::Reach(order),
+        O::Reach(order) => {
+            let named = order.try_map(|prop| Ok::<String, std::convert::Infallible>(cast.prop_name(*prop).to_owned()));
+            let Ok(named) = named;
+            Action::Reach(named)
+        }
         O::ReachEnd => Action::ReachEnd {},
         O::Say { text } => Action::Say { text },
     }

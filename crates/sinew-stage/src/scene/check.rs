@@ -66,8 +66,7 @@ impl SceneSpec {
         }
         self.check_characters()?;
         self.check_poses()?;
-        self.check_commands()?;
-        self.check_honoured()
+        self.check_commands()
     }
 
     fn check_counts(&self) -> Result<(), Fault> {

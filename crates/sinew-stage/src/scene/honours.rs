@@ -8,17 +8,17 @@ use sinew_control::tracker::{Asked, TrackerKind};
 use sinew_control::{Action, Command, Layer, OrderError, OrderErrorKind};
 use std::collections::BTreeMap;
 
+/// What a controller calls to give its character another tracker.
+const USE_TRACKER: &str = "useTracker";
+
 /// Trackers that each character may have.
 type Kinds<'a> = BTreeMap<&'a str, Vec<TrackerKind>>;
 
 impl SceneSpec {
-    /// What no tracker of a character would honour is refused: the one that it begins with, and those that the scene's commands give it.
-    /// Python controllers may give it any.
-    pub(super) fn check_honoured(&self) -> Result<(), Fault> {
-        if !self.controllers.is_empty() {
-            return Ok(());
-        }
-        let trackers = self.trackers();
+    /// What no tracker of a character would honour is refused: the one that it begins with, and those that the scene's commands and its
+    /// controllers give it. `text` is that of a controller.
+    pub(super) fn check_honoured<'t>(&self, text: &impl Fn(&str) -> Option<&'t str>) -> Result<(), Fault> {
+        let trackers = self.trackers(text);
         let kinds_of = |name: &str| trackers.get(name).map_or(&[][..], Vec::as_slice);
         for (name, spec) in &self.characters {
             let kinds = kinds_of(name);
@@ -68,15 +68,29 @@ impl SceneSpec {
         at.chain(when).chain(keys)
     }
 
-    fn trackers(&self) -> Kinds<'_> {
+    fn trackers<'t>(&self, text: &impl Fn(&str) -> Option<&'t str>) -> Kinds<'_> {
         let mut trackers: Kinds<'_> =
             self.characters.iter().map(|(name, spec)| (name.as_str(), vec![spec.tracker])).collect();
+        let switches = |controller: &str| text(controller).is_some_and(|text| text.contains(USE_TRACKER));
+        let mut give = |name: &str, given: &[TrackerKind]| {
+            let Some(kinds) = trackers.get_mut(name) else { return };
+            for kind in given {
+                if !kinds.contains(kind) {
+                    kinds.push(*kind);
+                }
+            }
+        };
         for (_, _, command) in self.commands() {
-            let (Some(name), Action::Tracker { name: kind }) = (&command.character, &command.action) else { continue };
-            if let (Some(kinds), Some(kind)) = (trackers.get_mut(name.as_str()), TrackerKind::of(kind))
-                && !kinds.contains(&kind)
-            {
-                kinds.push(kind);
+            let Some(name) = &command.character else { continue };
+            match &command.action {
+                Action::Tracker { name: kind } => give(name, TrackerKind::of(kind).as_slice()),
+                Action::Controller { name: controller } if switches(controller) => give(name, &TrackerKind::ALL),
+                _ => {}
+            }
+        }
+        for (name, spec) in &self.characters {
+            if spec.controller.as_deref().is_some_and(switches) {
+                give(name, &TrackerKind::ALL);
             }
         }
         trackers

@@ -117,7 +117,7 @@ impl KdSpec {
         ] {
             optional(&at(key), value, range::KD_GAIN.inclusive(), hint)?;
         }
-        number(&at("strength"), self.strength, range::KD_WEIGHT.inclusive(), "1 is as strong as ever")?;
+        number(&at("strength"), self.strength, range::KD_WEIGHT.inclusive(), "1 is full strength")?;
         for (part, weight) in &self.weights {
             let at = |key| ["characters", name, "kd", "weights", part, key];
             number(&at("pin"), weight.pin, range::KD_WEIGHT.inclusive(), "1 is as the gains say")?;

@@ -114,6 +114,14 @@ impl Scene {
                 return Err(document.place(files, fault));
             }
         }
+        let text = |name: &str| {
+            let controller = spec.controllers.get(name)?;
+            match &controller.file {
+                Some(file) => document.files.get(file)?.text(),
+                None => controller.text.as_deref(),
+            }
+        };
+        spec.check_honoured(&text).map_err(|fault| document.place(files, fault))?;
         for (timed, line) in spec.at.iter_mut().zip(document.lines("at")) {
             timed.line = line;
         }
@@ -140,10 +148,21 @@ impl Scene {
         self.held.get(&self.name).and_then(HeldFile::text).unwrap_or_default()
     }
 
-    /// The scene with another text of its file; what it names is read from where this scene's files are.
-    pub(crate) fn with_text(&self, text: &str) -> Result<Scene, SceneError> {
-        let edited = EditedFile { name: self.name.clone(), text: text.to_owned(), others: Arc::clone(&self.source) };
+    /// The scene with another text of its file. Files that it has read, or that are among the `known` ones, are not read again; others are
+    /// read from where this scene's files are.
+    pub(crate) fn with_text(&self, text: &str, known: &BTreeMap<String, HeldFile>) -> Result<Scene, SceneError> {
+        let mut known = known.clone();
+        known.extend(self.held.clone());
+        known.insert(self.name.clone(), HeldFile::new(text.as_bytes().to_vec()));
+        let edited = EditedFiles { name: self.name.clone(), known, others: Arc::clone(&self.source) };
         Scene::load(&self.name, Arc::new(edited), &self.sets)
+    }
+
+    /// Its commands as another scene has them, with the lines of that one's file.
+    pub(crate) fn take_lines_of(&mut self, other: &Scene) {
+        self.spec.at.clone_from(&other.spec.at);
+        self.spec.when.clone_from(&other.spec.when);
+        self.spec.keys.clone_from(&other.spec.keys);
     }
 
     /// The scene file's own name, without folders.
@@ -200,18 +219,18 @@ impl Scene {
 
 /// Files of a scene whose own text is another.
 #[derive(Clone, Debug)]
-struct EditedFile {
+struct EditedFiles {
     name: String,
-    text: String,
+    known: BTreeMap<String, HeldFile>,
     others: Arc<dyn Files>,
 }
 
-impl Files for EditedFile {
+impl Files for EditedFiles {
     fn read(&self, path: &str, most_bytes: u64) -> Result<Vec<u8>, FileError> {
-        if path != self.name {
-            return self.others.read(path, most_bytes);
+        match self.known.get(path) {
+            Some(held) => super::files::within(held.bytes.to_vec(), most_bytes),
+            None => self.others.read(path, most_bytes),
         }
-        super::files::within(self.text.clone().into_bytes(), most_bytes)
     }
 
     fn shown(&self, path: &str) -> String {

@@ -108,7 +108,7 @@ fn header(line: &[u8]) -> Result<Take, TakeError> {
     let any: AnyHeader = parse(1, line)
         .map_err(|error| TakeError::line(1, format!("this is no take: {}", error.problem)).of_kind(Kind::NotATake))?;
     if any.sinew != "take" {
-        return Err(TakeError::line(1, "this is no take; name a file that `--take` wrote").of_kind(Kind::NotATake));
+        return Err(TakeError::line(1, "this is no take; name a file that Take::write wrote").of_kind(Kind::NotATake));
     }
     if any.format != TAKE_FORMAT {
         let by =

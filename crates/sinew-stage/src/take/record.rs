@@ -67,24 +67,36 @@ pub fn due(commands: &[Stamped], step: u64) -> &[Stamped] {
     &rest[..rest.partition_point(|stamped| stamped.step == step)]
 }
 
+impl TakeFile {
+    fn of(held: &HeldFile) -> TakeFile {
+        TakeFile {
+            hash: held.hash,
+            bytes: (held.bytes.len() <= super::write::MAX_HELD_BYTES).then(|| Arc::clone(&held.bytes)),
+        }
+    }
+}
+
 impl Take {
     /// An empty take of a scene.
     pub fn of(scene: &Scene) -> Take {
-        let file = |held: &HeldFile| TakeFile {
-            hash: held.hash,
-            bytes: (held.bytes.len() <= super::write::MAX_HELD_BYTES).then(|| Arc::clone(&held.bytes)),
-        };
         Take {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file_name().to_owned(),
             seed: scene.stage.seed,
             physics_hz: scene.stage.physics_hz,
             sets: scene.sets().to_vec(),
-            files: scene.files().iter().map(|(path, held)| (path.clone(), file(held))).collect(),
+            files: scene.files().iter().map(|(path, held)| (path.clone(), TakeFile::of(held))).collect(),
             commands: Vec::new(),
             steps: 0,
             hash: 0,
             trace: None,
+        }
+    }
+
+    /// Adds files that it does not have yet.
+    pub(crate) fn add_files(&mut self, files: &BTreeMap<String, HeldFile>) {
+        for (path, held) in files {
+            self.files.entry(path.clone()).or_insert_with(|| TakeFile::of(held));
         }
     }
 

@@ -6,7 +6,7 @@ use sinew_body::humanoid::Node;
 use sinew_control::Layer;
 use sinew_control::tracker::TrackerKind;
 use sinew_stage::scene::SceneDocument;
-use sinew_stage::{EditOutcome, Scene, Stage};
+use sinew_stage::{EditOutcome, RestartReason, Scene, Stage};
 
 const TEXT: &str = "format = 1
 
@@ -71,16 +71,16 @@ fn the_running_stage_follows_what_it_can_and_names_what_needs_a_restart() {
         ("props.ball.position_m", "[0, 1, 2]"),
         ("props.ball.mass_kg", "2"),
         ("stage.gravity_m_s2", "1.62"),
+        ("stage.motion_hz", "120"),
         ("props.box.box_m", "[1, 1, 1]"),
         ("props.box.fixed", "true"),
         ("keys.0.name", "guard"),
     ]);
     let answers = stage.edit(&text).unwrap();
-    let paths = |outcome| {
-        answers.iter().filter(|one| one.outcome == outcome).map(|one| one.path.as_str()).collect::<Vec<&str>>()
-    };
+    let is_applied = |one: &&sinew_stage::Edited| one.outcome == EditOutcome::Applied;
+    let applied: Vec<&str> = answers.iter().filter(is_applied).map(|one| one.path.as_str()).collect();
     assert_eq!(
-        paths(EditOutcome::Applied),
+        applied,
         [
             "characters.one.colour",
             "characters.one.gravity_scale",
@@ -90,12 +90,20 @@ fn the_running_stage_follows_what_it_can_and_names_what_needs_a_restart() {
             "characters.one.source.pose",
             "characters.one.tracker",
             "keys",
+            "props.ball.mass_kg",
             "props.ball.position_m",
+            "props.box",
+            "stage.gravity_m_s2",
         ]
     );
+    let later: Vec<(&str, EditOutcome)> =
+        answers.iter().filter(|one| !is_applied(one)).map(|one| (one.path.as_str(), one.outcome)).collect();
     assert_eq!(
-        paths(EditOutcome::NeedsRestart),
-        ["characters.one.mass_kg", "props.ball.mass_kg", "props.box", "stage.gravity_m_s2"]
+        later,
+        [
+            ("characters.one.mass_kg", EditOutcome::NeedsRestart(RestartReason::Body)),
+            ("stage.motion_hz", EditOutcome::NeedsRestart(RestartReason::Rates)),
+        ]
     );
     stage.step();
     let (one, ball) = (stage.cast().character("one").unwrap(), stage.cast().prop("ball").unwrap());
@@ -111,8 +119,8 @@ fn the_running_stage_follows_what_it_can_and_names_what_needs_a_restart() {
     assert_eq!(stage.state_of(one).unwrap().pose(), Some("guard"));
     // What runs already is not said again; what waits for a restart is.
     let again = stage.edit(&text).unwrap();
-    assert!(again.iter().all(|one| one.outcome == EditOutcome::NeedsRestart), "{again:?}");
-    assert_eq!(again.len(), 4);
+    assert!(again.iter().all(|one| one.outcome != EditOutcome::Applied), "{again:?}");
+    assert_eq!(again.len(), 2);
 }
 
 #[test]

@@ -59,3 +59,18 @@ fn a_scene_whose_commands_bring_the_tracker_later_may_state_what_that_one_honour
     assert!(scene("pd", &format!("kd = {{ preset = \"giant\" }}\n{later}")).is_ok());
     assert!(scene("kinematic", &format!("pose_gain = 2\n{later}")).is_ok());
 }
+
+#[test]
+fn a_controller_excuses_its_own_character_and_only_if_it_switches_trackers() {
+    let controller = |words: &str| {
+        let class = format!("class C:\\n    def step(self):\\n        {words}\\n");
+        let other = "[characters.other]\ntracker = \"kinematic\"";
+        format!("controller = \"c\"\n{other}\n[controllers.c]\nclass = \"C\"\ntext = \"{class}\"\n")
+    };
+    let (calm, switching) = (controller("pass"), controller("skeleton.useTracker('pd')"));
+    let problem = scene("kinematic", &format!("pose_gain = 2\n{calm}")).unwrap_err();
+    assert!(problem.contains("characters.one.pose_gain"), "{problem}");
+    assert!(scene("kinematic", &format!("pose_gain = 2\n{switching}")).is_ok());
+    let problem = scene("kinematic", &switching.replace("[controllers", "pose_gain = 2\n[controllers")).unwrap_err();
+    assert!(problem.contains("characters.other.pose_gain"), "{problem}");
+}

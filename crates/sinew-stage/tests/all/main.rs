@@ -2,6 +2,7 @@
 
 mod blend;
 mod edit;
+mod edit_running;
 mod honours;
 mod hostile;
 mod live;

@@ -72,7 +72,7 @@ fn what_if_is_another_run_and_the_snapshot_still_gives_the_first_one() {
     let first = run(&mut stage, HALF);
     stage.restore(&kept).unwrap();
     let cast = stage.cast().clone();
-    for name in cast.characters() {
+    for (_, name) in cast.characters() {
         stage.command(Command::to(name, Action::Tracker { name: "none".to_owned() }));
     }
     assert_ne!(run(&mut stage, HALF), first);

@@ -81,7 +81,7 @@ fn a_value_can_be_changed_before_a_replay() {
 fn wrong_takes_say_line_and_remedy() {
     let header_end = text().find('\n').unwrap();
     let table = [
-        ("\"sinew\":\"take\"", "\"sinew\":\"tape\"", "line 1 of the take: this is no take", "--take"),
+        ("\"sinew\":\"take\"", "\"sinew\":\"tape\"", "line 1 of the take: this is no take", "Take::write"),
         ("\"format\":1", "\"format\":2", "format 2 (written by Sinew", "update Sinew"),
         ("\"format\":1", "\"format\":0", "format 0 (written by Sinew", "record it again"),
         ("\"seed\":1", "\"seed\":-1", "line 1", "record it again"),

@@ -44,9 +44,8 @@ pub struct LatencyReport {
 
 /// Every character that has a performer.
 pub(super) fn of(stage: &Stage) -> BTreeMap<String, ActorReport> {
-    let names = stage.cast().characters().iter();
-    let reports = names.filter_map(|name| {
-        let source = stage.state_of(stage.cast().character(name)?)?.performance()?;
+    let reports = stage.cast().characters().filter_map(|(id, name)| {
+        let source = stage.state_of(id)?.performance()?;
         let counters = source.counters();
         let report = ActorReport {
             received: counters.received,
@@ -58,7 +57,7 @@ pub(super) fn of(stage: &Stage) -> BTreeMap<String, ActorReport> {
             counters,
             ..ActorReport::default()
         };
-        Some((name.clone(), report))
+        Some((name.to_owned(), report))
     });
     reports.collect()
 }

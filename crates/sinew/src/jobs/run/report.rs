@@ -7,7 +7,7 @@ use crate::jobs::reach::ReachReport;
 use serde::Serialize;
 use sinew_live::Performers;
 use sinew_stage::{Event, Observer, Stage};
-use sinew_world::{CharacterId, Entity};
+use sinew_world::Entity;
 use std::collections::BTreeMap;
 
 /// The report of `sinew run` and `sinew replay`. Keys carry their units.
@@ -72,10 +72,7 @@ const OFF_STEPS: u64 = 12;
 impl RunReport {
     /// An empty report of a stage that begins.
     pub fn of(stage: &Stage) -> RunReport {
-        let characters = stage.cast().characters().iter().map(|name| {
-            let begin = CharacterReport { hips_height_min_m: f64::INFINITY, ..CharacterReport::default() };
-            (name.clone(), begin)
-        });
+        let characters = stage.cast().characters().map(|(_, name)| (name.to_owned(), CharacterReport::new()));
         RunReport {
             scene: stage.scene().file_name().to_owned(),
             steps: 0,
@@ -103,8 +100,8 @@ impl RunReport {
         self.events = stage.events().list().to_vec();
         self.events_dropped = stage.events().dropped();
         self.actors = actors::of(stage);
-        for (index, character) in self.characters.values_mut().enumerate() {
-            if let Some(seen) = frame.character(CharacterId::first_in(index)) {
+        for (name, character) in &mut self.characters {
+            if let Some(seen) = stage.cast().character(name).and_then(|id| frame.character(id)) {
                 character.hips_height_end_m = seen.parts[0].position.y;
                 character.centre_end_m = seen.centre_of_mass.into();
                 character.com_margin_end_m = seen.support_margin_m();
@@ -115,14 +112,25 @@ impl RunReport {
     }
 }
 
+impl CharacterReport {
+    /// Of a character that has just come.
+    fn new() -> CharacterReport {
+        CharacterReport { hips_height_min_m: f64::INFINITY, ..CharacterReport::default() }
+    }
+}
+
 impl Observer for RunReport {
     /// Looks at the stage after a step.
     fn after_step(&mut self, stage: &Stage) {
         use sinew_body::humanoid::Node;
         let frame = stage.frame();
         self.joint_gap_max_m = self.joint_gap_max_m.max(stage.world().largest_joint_gap_m());
-        for (character, id) in self.characters.values_mut().zip(&frame.character_ids) {
-            let Some((id, seen)) = id.and_then(|id| Some((id, frame.character(id)?))) else { continue };
+        for (id, name) in stage.cast().characters() {
+            let Some(seen) = frame.character(id) else { continue };
+            if !self.characters.contains_key(name) {
+                self.characters.insert(name.to_owned(), CharacterReport::new());
+            }
+            let Some(character) = self.characters.get_mut(name) else { continue };
             character.hips_height_min_m = character.hips_height_min_m.min(seen.parts[0].position.y);
             character.resets += u64::from(seen.was_reset);
             let step_secs = stage.world().settings().step_secs();
