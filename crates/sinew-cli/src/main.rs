@@ -2,6 +2,7 @@
 
 mod convert;
 mod files;
+mod flag_names;
 mod inspect;
 mod interactive;
 #[cfg(feature = "session")]
@@ -123,7 +124,7 @@ fn main() -> ExitCode {
         // A closed pipe (`sinew inspect ... | head`) is not a failure.
         Err(error) if output::is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("sinew: {error:#}");
+            eprintln!("sinew: {}", flag_names::with_options(&format!("{error:#}")));
             ExitCode::from(if is_wrong_usage(&error) { 2 } else { 1 })
         }
     }

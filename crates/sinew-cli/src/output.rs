@@ -11,7 +11,7 @@ use std::time::Duration;
 /// Prints to standard output; an error if the pipe is closed.
 pub(crate) fn say(text: &str) -> Result<()> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
+    out.write_all(crate::flag_names::with_options(text).as_bytes())?;
     out.write_all(b"\n")?;
     Ok(out.flush()?)
 }

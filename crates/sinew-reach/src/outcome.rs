@@ -34,7 +34,7 @@ impl Reason {
             Reason::TooNear => "too near to the body for the arm to fold; the hand ends at the nearest point",
             Reason::TooFarApart => "the two targets are too far from each other for one body",
             Reason::Blocked => "blocked: an obstacle is in the way, and neither the elbow nor a bowed path clears it",
-            Reason::OneStep => "one step does not bring it in reach; without --print more are taken",
+            Reason::OneStep => "one step does not bring it in reach; with Style::print off more are taken",
             Reason::Released => "released",
         }
     }

@@ -10,7 +10,7 @@ use sinew_body::humanoid::{Body, Pose, UPPER_DOFS};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BasisError {
     /// Too little motion.
-    #[error("a basis needs at least 3 frames of motion, this has {0}; give a longer clip or a wider --cycle")]
+    #[error("a basis needs at least 3 frames of motion, this has {0}; give a longer clip or a wider Excerpt::cycle")]
     TooShort(usize),
     /// The motion holds a value that is NaN or infinite.
     #[error("the motion is not finite; check the clip with `sinew inspect`")]

@@ -25,7 +25,7 @@ pub enum PrepareError {
     #[error("the cycle {0}..{1} is not within the clip's frames 0..{2}; both ends count from 0 and are included")]
     Cycle(usize, usize, usize),
     /// There is no cycle to repeat.
-    #[error("no gait cycle was found to repeat; state its first and last frame (--cycle FIRST..LAST)")]
+    #[error("no gait cycle was found to repeat; state its first and last frame in Excerpt::cycle")]
     NoCycle,
     /// Repetition would make more than [`Excerpt::MAX_FRAMES`](crate::Excerpt::MAX_FRAMES): how often, and the frames of one cycle.
     #[error("{0} repetitions of {1} frames are more than {max} frames; repeat less often", max = crate::Excerpt::MAX_FRAMES)]

@@ -190,7 +190,7 @@ pub fn write(path: &Path, job: &WriteJob, body: &[BodyShape]) -> Result<Vec<Note
             if !again && (job.clip.fps() - AMC_FPS).abs() > 0.5 {
                 notes.push(Note::new(format!(
                     "an AMC does not state its frame rate, and readers take {AMC_FPS}: this motion has {:.3} frames per second; \
-                     --fps {AMC_FPS} of `sinew convert` makes it fit",
+                     resample it to {AMC_FPS}, and it fits",
                     job.clip.fps()
                 )));
             }

@@ -98,7 +98,7 @@ fn broken_acclaim_files_say_line_and_remedy() {
     let asf = asf_text();
     let motions = [
         ("a 5 6.5", "a 5", "line 6: frame 7 has 1 values for bone a, its dof are 2", "(.asf) belongs to this motion"),
-        ("a 5 6.5", "c 5 6.5", "line 6: frame 7 names \"c\"", "--skeleton"),
+        ("a 5 6.5", "c 5 6.5", "line 6: frame 7 names \"c\"", "ReadOptions::skeleton"),
         ("a 5 6.5", "a 5 nan", "line 6: frame 7, bone a is \"nan\"", "repair the value"),
         ("a 5 6.5", "b 1 2 3", "line 7: frame 7 has a second line for bone b", "remove one"),
         ("7\nroot", "root", "line 4: \"root\" stands before the first frame's number", "check that the file is an AMC"),

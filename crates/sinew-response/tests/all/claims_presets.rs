@@ -1,4 +1,4 @@
-//! What the presets that are closer to the print show.
+//! What the presets that are closer to the paper as printed show.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::pushing::{Case, DIRECTIONS, Kind, PHASES, adults, mean, push, starts, sweep};

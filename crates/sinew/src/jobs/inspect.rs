@@ -78,6 +78,16 @@ pub struct DefectReport {
 const QUIET: f64 = 0.01;
 
 /// Inspects a file.
+///
+/// ```
+/// use sinew::body::humanoid::Person;
+/// use sinew::jobs::inspect::inspect;
+/// use sinew::motion::formats::{MotionFile, ReadOptions};
+/// let walk = MotionFile::from_bvh(&sinew::stage::sample_walk_bvh()?, &ReadOptions::default())?;
+/// let inspection = inspect(&walk, Person::default());
+/// assert_eq!(inspection.joints.len(), walk.clip.skeleton().joints().len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn inspect(file: &MotionFile, person: Person) -> Inspection {
     let clip = &file.clip;
     let joints = clip.skeleton().joints();

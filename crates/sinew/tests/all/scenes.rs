@@ -1,4 +1,4 @@
-//! Every shipped scene without a controller runs, gives the same bits as ever, and replays to them.
+//! Every shipped scene without a controller runs, gives the bits of golden.json, and replays to them.
 
 use crate::golden::scenes;
 use sinew::jobs::run::{RunJob, replay, run};

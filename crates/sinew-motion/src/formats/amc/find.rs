@@ -14,7 +14,7 @@ pub fn find_skeleton(amc_path: &Path, stated: Option<&Path>) -> Result<PathBuf, 
             return Ok(stated.to_owned());
         }
         let problem = format!("the skeleton {} does not exist", stated.display());
-        return Err(Error::new(Place::File, problem, "correct the path given with --skeleton").in_file(amc_path));
+        return Err(Error::new(Place::File, problem, "correct the path in ReadOptions::skeleton").in_file(amc_path));
     }
     let folder = match amc_path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -39,7 +39,7 @@ pub fn find_skeleton(amc_path: &Path, stated: Option<&Path>) -> Result<PathBuf, 
         count => format!("there are {count} other .asf files"),
     };
     let problem = format!("no skeleton found: {} is not in {}, and {others}", tried.join(" or "), folder.display());
-    Err(Error::new(Place::File, problem, "name the skeleton with --skeleton FILE.asf").in_file(amc_path))
+    Err(Error::new(Place::File, problem, "name the .asf in ReadOptions::skeleton").in_file(amc_path))
 }
 
 /// The `.asf` files of a folder, sorted.
@@ -85,10 +85,10 @@ mod tests {
     fn a_missing_skeleton_says_what_was_tried_and_how_to_name_one() {
         let folder = folder(&["a.asf", "b.asf"]);
         let error = find_skeleton(&folder.path().join("07_01.amc"), None).unwrap_err().to_string();
-        for word in ["07_01.asf", "07.asf", "2 other", "--skeleton"] {
+        for word in ["07_01.asf", "07.asf", "2 other", "ReadOptions::skeleton"] {
             assert!(error.contains(word), "{word}: {error}");
         }
         let error = find_skeleton(Path::new("07_01.amc"), Some(Path::new("gone.asf"))).unwrap_err().to_string();
-        assert!(error.contains("gone.asf") && error.contains("--skeleton"), "{error}");
+        assert!(error.contains("gone.asf") && error.contains("ReadOptions::skeleton"), "{error}");
     }
 }

@@ -190,7 +190,7 @@ impl Reader<'_> {
         let Some(&joint) = self.joints.get(first.of(bytes)) else {
             let problem =
                 format!("frame {number_of_frame} names {}, which is not a bone of the skeleton", show(first.of(bytes)));
-            return Err(fault(bytes, first.start, problem, "name the motion's own skeleton with --skeleton FILE.asf"));
+            return Err(fault(bytes, first.start, problem, "name the motion's own .asf in ReadOptions::skeleton"));
         };
         let bone = &self.asf.bones[joint];
         if frame.seen[joint] {

@@ -11,7 +11,7 @@ use sinew_reach::{
     Waypoint, standing,
 };
 use sinew_stage::{RecordedCharacter, RecordedProp, Recording};
-use sinew_world::{Form, Solid, hips_over_soles_m};
+use sinew_world::{CharacterId, Form, PropId, Solid, hips_over_soles_m};
 
 /// Which hand reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -91,10 +91,10 @@ pub enum ReachError {
     #[error(transparent)]
     Goal(#[from] MovingGoalError),
     /// Neither hand has a target.
-    #[error("nothing to reach; give --target X:Y:Z in metres: x to the left, y up, z forward")]
+    #[error("nothing to reach; state ReachJob::target in metres: x to the left, y up, z forward")]
     NoTarget,
     /// The clip ends before it is to be left.
-    #[error("--from: the clip ends at {ends_secs:.2} s; leave it before, not at {from_secs} s")]
+    #[error("ReachJob::from_secs: the clip ends at {ends_secs:.2} s; leave it before, not at {from_secs} s")]
     ClipEnds {
         /// Its end \[s\].
         ends_secs: f64,
@@ -195,7 +195,14 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
     let ball = |name: String, radius_m: f64, rgb: [u8; 3], mut places: Vec<(DVec3, DQuat)>| {
         let last = places.last().copied().unwrap_or_default();
         places.resize(frames, last);
-        RecordedProp { name, solid: Solid::new(Form::Ball { radius_m }), rgb: Some(rgb), is_sensor: false, places }
+        RecordedProp {
+            id: PropId::default(),
+            name,
+            solid: Solid::new(Form::Ball { radius_m }),
+            rgb: Some(rgb),
+            is_sensor: false,
+            places,
+        }
     };
     let goals = sides.iter().zip(places).map(|(side, places)| {
         let name = if sides.len() == 1 { "target" } else { ["leftTarget", "rightTarget"][*side] };
@@ -205,7 +212,14 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
         ball(format!("avoided{}", index + 1), one.radius_m, [0x80, 0x80, 0x80], vec![(world(one.at), DQuat::IDENTITY)])
     });
     let props = goals.chain(avoided).collect();
-    let character = RecordedCharacter { name: "body".to_owned(), body, rgb: None, poses, shapes: Vec::new() };
+    let character = RecordedCharacter {
+        id: CharacterId::default(),
+        name: "body".to_owned(),
+        body,
+        rgb: None,
+        poses,
+        shapes: Vec::new(),
+    };
     Ok(Reached {
         report,
         recording: Recording { motion_hz: HZ, frames, characters: vec![character], props },

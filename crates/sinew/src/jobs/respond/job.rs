@@ -50,6 +50,16 @@ impl RespondError {
 
 /// Runs the job. `basis_from` lends its coordinates of actuation, another person's or style's; else the clip's own are used.
 ///
+/// ```
+/// use sinew::jobs::respond::{RespondJob, respond};
+/// use sinew::motion::formats::{MotionFile, ReadOptions};
+/// let walk = MotionFile::from_bvh(&sinew::stage::sample_walk_bvh()?, &ReadOptions::default())?;
+/// // Nothing pushes it: the answer is the clip.
+/// let answer = respond(&walk, &RespondJob::default(), None)?;
+/// assert_eq!(answer.clip.frames(), walk.clip.frames());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// When the file holds no human body, or the job asks for what cannot be.
 pub fn respond(file: &MotionFile, job: &RespondJob, basis_from: Option<&MotionFile>) -> Result<Answer, RespondError> {
@@ -71,8 +81,8 @@ pub fn respond(file: &MotionFile, job: &RespondJob, basis_from: Option<&MotionFi
     let end_secs = prepared.clip().duration_secs();
     for (push, _) in job.pushes.iter().zip(pushed.forces()).filter(|(_, force)| force.is_none()) {
         notes.push(Note::new(format!(
-            "the push at {} s never acts: it comes after the clip's end at {end_secs:.2} s, or lasts no time; --repeat makes a walk \
-             longer",
+            "the push at {} s never acts: it comes after the clip's end at {end_secs:.2} s, or lasts no time; Excerpt::repeat makes a \
+             walk longer",
             push.at_secs
         )));
     }

@@ -89,8 +89,18 @@ pub fn run(scene: Scene, job: &RunJob, observers: &mut [&mut dyn Observer]) -> R
     Ok(play(if job.real_time { runner.paced() } else { runner }, steps, &mut all))
 }
 
-/// Plays a take again, with the commands at their steps. `sets` change values of the scene first, as `--set` does;
+/// Plays a take again, with the commands at their steps. `sets` change values of the scene first, as [`Scene::set`] does;
 /// `folder` is where large files are looked for that the take only names.
+///
+/// ```
+/// use sinew::jobs::run::{RunJob, replay, run};
+/// use sinew::stage::Scene;
+/// let scene = Scene::from_text("format = 1\n[characters.one]\npose = \"stand\"\n")?;
+/// let ran = run(scene, &RunJob { for_secs: Some(0.1), ..RunJob::default() }, &mut [])?;
+/// let again = replay(&ran.take, &[], None, None, &mut [])?;
+/// assert_eq!(again.report.hash, ran.report.hash);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// When the take's scene no longer reads or cannot be built.
@@ -145,6 +155,6 @@ fn play(runner: Runner, steps: u64, observers: &mut [&mut dyn Observer]) -> Ran 
     runner.run(steps, &mut all);
     report.finish(runner.stage());
     let done = runner.finish();
-    let take = done.take.unwrap_or_else(|| Take::of(done.stage.scene()));
+    let take = done.take.unwrap_or_else(|| Take::of(done.stage.first_scene()));
     Ran { report, recording: done.recording.unwrap_or_default(), take }
 }
