@@ -181,6 +181,8 @@ impl Stage {
     /// As [`Stage::restore`], without what came from outside and without controllers.
     pub(crate) fn put_back(&mut self, snapshot: &StageSnapshot) {
         self.scene = Arc::clone(&snapshot.running_scene);
+        // Of another stage it may hold files that this one has not read; its take needs them.
+        self.edit_files.extend(self.scene.files().iter().map(|(path, held)| (path.clone(), held.clone())));
         self.cast.clone_from(&snapshot.cast);
         self.world = snapshot.world.clone();
         self.actors.clone_from(&snapshot.actors);

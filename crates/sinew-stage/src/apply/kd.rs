@@ -66,10 +66,9 @@ impl Stage {
                 let changes = kd.has_pins() != *on;
                 kd.set_pins(*on, *fade_secs);
                 // A source without root motion has the hips stand where they are now.
-                if let Some(frame) = self.world.frame().character(id).filter(|_| *on && changes) {
-                    if let Some(actor) = self.actors.get_mut(&id) {
-                        actor.sources.stand_where_it_is(frame);
-                    }
+                let frame = self.world.frame().character(id).filter(|_| *on && changes);
+                if let (Some(frame), Some(actor)) = (frame, self.actors.get_mut(&id)) {
+                    actor.sources.stand_where_it_is(frame);
                 }
                 let other = [to_character(id, O::Pins { on: !*on, fade_secs: FADE_SECS, for_secs: None })];
                 self.end_with(*for_secs, &other);
