@@ -118,6 +118,6 @@ fn a_clip_that_takes_over_from_a_walk_begins_in_its_phase() {
         slides.push((undisturbed, handed_over));
     }
     // An ankle rolls over its foot. Half a frame's difference of phase is a centimetre at a walk's speed; with the clip's beginning in
-    // place of its phase a foot slid by up to 0.45 m.
+    // place of its phase a foot slid by up to 0.56 m, undisturbed by 0.24 m.
     assert!(slides.iter().all(|(undisturbed, handed_over)| handed_over - undisturbed < 0.05), "{slides:.3?}");
 }
