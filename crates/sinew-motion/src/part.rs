@@ -84,6 +84,23 @@ impl Part {
     /// Number of parts.
     pub const COUNT: usize = Part::ALL.len();
 
+    /// Its name in words: `left upper arm`.
+    ///
+    /// ```
+    /// # use sinew_motion::Part;
+    /// assert_eq!(Part::LeftUpperArm.words(), "left upper arm");
+    /// ```
+    pub fn words(self) -> String {
+        let mut words = String::new();
+        for letter in self.name().chars() {
+            if letter.is_ascii_uppercase() {
+                words.push(' ');
+            }
+            words.push(letter.to_ascii_lowercase());
+        }
+        words
+    }
+
     /// The same part on the other side of the body; a midline part is its own mirror image.
     pub fn mirrored(self) -> Part {
         let name = self.name();

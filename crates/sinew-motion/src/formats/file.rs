@@ -1,6 +1,6 @@
 //! A motion file of any format, in metres and Y up, with its body parts found.
 
-use super::{BodyShape, Document, Format, Parsed, Source, WriteJob, amc, bvh, fbx, gltf};
+use super::{BodyShape, Document, Format, Parsed, SceneFile, Source, WriteJob, amc, bvh, fbx, gltf};
 use crate::{Clip, Error, Humanoid, Limits, Note, Part, Place, SourceSpace, guess_space, stature};
 use std::fs;
 use std::io::{Read, Write};
@@ -206,6 +206,21 @@ pub fn write(path: &Path, job: &WriteJob, body: &[BodyShape]) -> Result<Vec<Note
     .map_err(|error| error.in_file(path))?;
     write_whole(path, &bytes)?;
     Ok(notes)
+}
+
+/// Writes a whole scene to a `.glb` or `.gltf`, atomically; see [`gltf::write_scene`].
+///
+/// # Errors
+/// Another format, a scene that cannot be written, or a folder that cannot be written to.
+pub fn write_scene(path: &Path, scene: &SceneFile) -> Result<(), Error> {
+    let bytes = match format_of(path)? {
+        format @ (Format::Gltf | Format::Glb) => gltf::write_scene(scene, format),
+        other => {
+            let problem = format!("a scene is not written as {other}");
+            Err(Error::new(Place::File, problem, "name the output .glb or .gltf"))
+        }
+    };
+    write_whole(path, &bytes.map_err(|error| error.in_file(path))?)
 }
 
 fn format_of(path: &Path) -> Result<Format, Error> {

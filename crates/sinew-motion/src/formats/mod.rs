@@ -11,8 +11,10 @@ pub mod fbx;
 mod file;
 pub mod gltf;
 mod rate;
+mod scene_file;
 mod text;
 
 pub use body_shape::BodyShape;
 pub use document::{Document, Format, Parsed, Source, WriteJob};
-pub use file::{MotionFile, ReadOptions, bytes_of, write, write_whole};
+pub use file::{MotionFile, ReadOptions, bytes_of, write, write_scene, write_whole};
+pub use scene_file::{JointShape, SceneCharacter, SceneFile, SceneForm, SceneMaterial, SceneThing};

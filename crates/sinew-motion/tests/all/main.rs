@@ -8,6 +8,7 @@ mod from_memory;
 mod gltf_hostile;
 mod gltf_read;
 mod gltf_rewrite;
+mod gltf_scene;
 mod gltf_write;
 mod humanoid_dialects;
 mod humanoid_files;

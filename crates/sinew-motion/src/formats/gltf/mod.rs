@@ -22,6 +22,8 @@ mod keys;
 mod reader;
 mod rewrite;
 mod rig;
+mod scene;
+mod scene_mesh;
 mod schema;
 mod track;
 mod tree;
@@ -31,6 +33,7 @@ mod writer;
 pub use document::GltfDocument;
 pub use fuzz::fuzz;
 pub use reader::{read, read_slice};
+pub use scene::write_scene;
 pub use writer::write;
 
 use crate::{Error, Place};

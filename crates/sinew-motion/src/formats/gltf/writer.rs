@@ -64,20 +64,12 @@ fn write_anew(clip: &Clip, format: Format, body: &[BodyShape]) -> Result<Vec<u8>
     check_body(clip, body)?;
     let mut append = Append::default();
     let (mut nodes, mut scene) = nodes(clip);
-    let inverse_bind: Vec<f32> = clip
-        .skeleton()
-        .rest_world()
-        .iter()
-        .map(|world_from_joint| world_from_joint.inverse())
-        .flat_map(|inverse| DMat4::from_rotation_translation(inverse.rotation, inverse.translation).to_cols_array())
-        .map(|value| value as f32)
-        .collect();
     let mut file = json!({
         "asset": { "version": "2.0", "generator": "sinew" },
         "scene": 0,
     });
     if !clip.skeleton().is_empty() {
-        let matrices = append.floats("MAT4", &inverse_bind, false, None);
+        let matrices = inverse_binds(clip, &mut append);
         let joints: Vec<usize> = (0..clip.skeleton().len()).collect();
         file["skins"] = json!([{ "name": "skeleton", "inverseBindMatrices": matrices, "joints": joints }]);
     }
@@ -96,6 +88,21 @@ fn write_anew(clip: &Clip, format: Format, body: &[BodyShape]) -> Result<Vec<u8>
         return Err(Error::new(Place::File, "the clip has no joints", "give it a skeleton"));
     }
     file["nodes"] = Value::Array(nodes);
+    with_buffer(file, append, format)
+}
+
+/// The matrices that take the world of the rest pose to each joint, as a skin has them.
+pub(super) fn inverse_binds(clip: &Clip, append: &mut Append) -> usize {
+    let rest = clip.skeleton().rest_world();
+    let inverse = rest.iter().map(|world_from_joint| world_from_joint.inverse());
+    let matrices = inverse.flat_map(|joint_from_world| {
+        DMat4::from_rotation_translation(joint_from_world.rotation, joint_from_world.translation).to_cols_array()
+    });
+    append.floats("MAT4", &matrices.map(|value| value as f32).collect::<Vec<f32>>(), false, None)
+}
+
+/// A file with its accessors, views and buffer.
+pub(super) fn with_buffer(mut file: Value, append: Append, format: Format) -> Result<Vec<u8>, Error> {
     file["accessors"] = Value::Array(append.accessors);
     file["bufferViews"] = Value::Array(append.views);
     let mut buffer = json!({ "byteLength": append.bytes.len() });
