@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Person, Pose, Reduction};
 use sinew_control::source::ClipSource;
 use sinew_motion::formats::{MotionFile, ReadOptions};
-use sinew_motion::{find_cycle, moves_from, repeat, resample};
+use sinew_motion::{Clip, find_cycle, moves_from, repeat, resample};
 use sinew_response::{Motion, Settings};
 use sinew_world::hips_over_soles_m;
 
@@ -44,6 +44,49 @@ pub(crate) struct Play {
     pub stands_on_floor: bool,
 }
 
+/// A clip at the stage's rate.
+pub(crate) struct Played {
+    pub clip: Clip,
+    /// For each of its frames, the frame of the file that it came from.
+    pub rows: Vec<usize>,
+    /// Where in it the stage's time begins \[s\].
+    pub start_secs: f64,
+    /// Frames that are needed.
+    wanted: usize,
+}
+
+impl Played {
+    /// The frame of the clip in a frame of the stage.
+    pub fn frame(&self, index: usize) -> usize {
+        let first = (self.start_secs * self.clip.fps()).round() as usize;
+        (first + index).min(self.clip.frames().saturating_sub(1))
+    }
+}
+
+/// A clip at the stage's rate, its cycle repeated where it is to be.
+pub(crate) fn played(file: &MotionFile, play: &Play) -> Result<Played, String> {
+    let Play { hz, mut start_secs, repeats, until_secs, .. } = *play;
+    let humanoid = file.body_parts().map_err(|error| error.to_string())?;
+    let wanted = (((start_secs + until_secs) * hz).ceil() as usize + 2).min(MAX_FRAMES);
+    let clip = resample(&file.clip, hz);
+    let last = file.clip.frames().saturating_sub(1);
+    let row = |frame: usize| ((frame as f64 * file.clip.fps() / hz).round() as usize).min(last);
+    let (clip, rows) = match repeats.then(|| find_cycle(&clip, humanoid)).flatten() {
+        Some(cycle) => {
+            let length = cycle.last.saturating_sub(cycle.first).max(1);
+            let repeated = repeat(&clip, humanoid, (cycle.first, cycle.last), wanted / length + 2);
+            (repeated.clip, repeated.rows.into_iter().map(row).collect())
+        }
+        None => {
+            // Many files begin with a rest pose that is not part of the motion.
+            start_secs = start_secs.max(moves_from(&file.clip, humanoid) as f64 * file.clip.frame_time_secs());
+            let rows = (0..clip.frames()).map(row).collect();
+            (clip, rows)
+        }
+    };
+    Ok(Played { clip, rows, start_secs, wanted })
+}
+
 /// A clip's poses, moved so that at the start the hips are over the character's place and face where it faces.
 pub(crate) fn clip_source(
     file: &MotionFile,
@@ -51,21 +94,8 @@ pub(crate) fn clip_source(
     spec: &CharacterSpec,
     play: &Play,
 ) -> Result<ClipSource, String> {
-    let Play { hz, mut start_secs, repeats, until_secs, is_filtered, stands_on_floor } = *play;
-    let humanoid = file.body_parts().map_err(|error| error.to_string())?;
-    let wanted = (((start_secs + until_secs) * hz).ceil() as usize + 2).min(MAX_FRAMES);
-    let clip = resample(&file.clip, hz);
-    let clip = match repeats.then(|| find_cycle(&clip, humanoid)).flatten() {
-        Some(cycle) => {
-            let length = cycle.last.saturating_sub(cycle.first).max(1);
-            repeat(&clip, humanoid, (cycle.first, cycle.last), wanted / length + 2).clip
-        }
-        None => {
-            // Many files begin with a rest pose that is not part of the motion.
-            start_secs = start_secs.max(moves_from(&file.clip, humanoid) as f64 * file.clip.frame_time_secs());
-            clip
-        }
-    };
+    let Play { hz, is_filtered, stands_on_floor, .. } = *play;
+    let Played { clip, start_secs, wanted, .. } = played(file, play)?;
     let mut poses: Vec<Pose> = if is_filtered {
         let settings = Settings { time_step_secs: 1.0 / hz, ..Settings::default() };
         Motion::of_clip(&clip, reduction, 0, &settings).poses().to_vec()

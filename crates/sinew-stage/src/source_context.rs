@@ -41,7 +41,7 @@ pub(crate) fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
     Ok(Cut { body, clips })
 }
 
-fn how(scene: &Scene, tracker: TrackerKind, play: &ClipPlay) -> Play {
+pub(crate) fn how(scene: &Scene, tracker: TrackerKind, play: &ClipPlay) -> Play {
     Play {
         hz: f64::from(scene.stage.motion_hz),
         start_secs: play.start_secs,

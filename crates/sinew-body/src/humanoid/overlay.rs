@@ -9,7 +9,7 @@ use super::hips::HipsDeviation;
 use super::leg::{LegPose, solve_leg};
 use super::node::LEGS;
 use super::rotation::{exp, log};
-use super::{Node, Reduction, UPPER_NODES};
+use super::{Node, Pose, Reduction, UPPER_NODES};
 use glam::{DQuat, DVec3};
 use sinew_motion::Transform;
 
@@ -128,6 +128,36 @@ impl<'a> Overlay<'a> {
     ) {
         let input = self.reduction.orientations(world);
         let (turned, shift) = self.planted(world, &input, deviation);
+        self.write(world, &turned, shift + deviation.ground_shift, &mut rotated, &mut moved);
+    }
+
+    /// Gives the joints a pose of the body (positions in metres of the body) instead: every joint that carries a node has its
+    /// orientation, and the hips' joint its place. `world` is the `world_from_joint` of the frame from which all other joints have what no
+    /// node says: fingers and toes, the twist of helpers, the bend between spine joints. Feet are where the skeleton's own legs bring
+    /// them. `rotated` and `moved` are called as by [`Overlay::apply`].
+    pub fn apply_pose(
+        &mut self,
+        world: &[Transform],
+        pose: &Pose,
+        mut rotated: impl FnMut(usize, DQuat),
+        mut moved: impl FnMut(usize, DVec3),
+    ) {
+        let input = self.reduction.orientations(world);
+        let turned = Turned::between(&input, &pose.world);
+        let hips = self.reduction.joint(Node::Hips).unwrap_or(0);
+        let shift = pose.hips_position / self.reduction.scale() - self.carried(world, hips, &turned);
+        self.write(world, &turned, shift, &mut rotated, &mut moved);
+    }
+
+    /// Turns every joint as its role says, and shifts the body.
+    fn write(
+        &mut self,
+        world: &[Transform],
+        turned: &Turned,
+        shift: DVec3,
+        rotated: &mut impl FnMut(usize, DQuat),
+        moved: &mut impl FnMut(usize, DVec3),
+    ) {
         for (joint, transform) in world.iter().enumerate() {
             let parent = self.reduction.parents[joint];
             let parent_delta = parent.map_or(DQuat::IDENTITY, |parent| self.deltas[parent]);
@@ -141,7 +171,6 @@ impl<'a> Overlay<'a> {
                 self.deltas[joint] = parent_delta;
             }
         }
-        let shift = shift + deviation.ground_shift;
         if shift.length() > NOTHING {
             let parent = self.reduction.parents[self.mover].map(|parent| world[parent]);
             let parent = parent.unwrap_or(Transform::IDENTITY);
@@ -240,6 +269,15 @@ impl Turned {
                 nodes[at] = (output[at] * input[at].conjugate()).normalize();
             }
         }
+        Turned::of_nodes(nodes)
+    }
+
+    /// From one pose's orientations to another's.
+    fn between(input: &[DQuat; Node::COUNT], output: &[DQuat; Node::COUNT]) -> Turned {
+        Turned::of_nodes(std::array::from_fn(|node| (output[node] * input[node].conjugate()).normalize()))
+    }
+
+    fn of_nodes(nodes: [DQuat; Node::COUNT]) -> Turned {
         let (hips, chest) = (nodes[0], nodes[Node::Chest.index()]);
         let head = nodes[Node::Head.index()];
         Turned {
