@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the first command leaves in `out/`.
-const FILES: [&str; 4] = ["pushed.bvh", "pushed.glb", "pushed.png", "report.json"];
+const FILES: [&str; 5] = ["pushed.bvh", "pushed.glb", "pushed.png", "pushed.gif", "report.json"];
 
 /// The clips that the README's examples are about: stand-ins are put there.
 const CLIPS: [&str; 2] = ["walk.bvh", "other.bvh"];

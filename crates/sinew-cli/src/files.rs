@@ -1,10 +1,11 @@
-//! `-o`, `--report`, `--picture`: output files.
+//! `-o`, `--report`, `--picture`, `--video`: output files.
 
-use crate::output;
+use crate::{output, video};
 use anyhow::{Context, Result, bail};
-use sinew::jobs::run::{body_shapes, character_clip, csv, scene_clip};
-use sinew::motion::formats::{Format, WriteJob, write};
-use sinew::stage::{RecordedCharacter, Recording};
+use sinew::jobs::run::{character_clip, character_scene, csv, scene_file};
+use sinew::motion::formats::{Format, WriteJob, write, write_scene};
+use sinew::picture::Movie;
+use sinew::stage::{OwnRig, RecordedCharacter, Recording};
 use std::path::{Path, PathBuf};
 
 /// Where results go.
@@ -20,12 +21,16 @@ pub(crate) struct Files {
     /// Where to draw a picture.
     #[arg(long, value_name = "P.png")]
     pub picture: Option<PathBuf>,
+    /// Where to show the motion as moving pictures, in real time at 25 a second: .gif, .apng, or .mp4 where ffmpeg is
+    /// installed.
+    #[arg(long, value_name = "V.gif")]
+    pub video: Option<PathBuf>,
 }
 
 impl Files {
     /// All of them.
     pub fn all(&self) -> impl Iterator<Item = &PathBuf> {
-        self.motions.iter().chain(&self.report).chain(&self.picture)
+        self.motions.iter().chain(&self.report).chain(&self.picture).chain(&self.video)
     }
 
     /// Checks outputs before any work is done: no input is overwritten, no two results go to one file.
@@ -34,12 +39,19 @@ impl Files {
         inputs: impl Iterator<Item = &'a PathBuf>,
         more: impl Iterator<Item = &'a PathBuf>,
     ) -> Result<()> {
-        output::check_places(inputs, self.all().chain(more))
+        output::check_places(inputs, self.all().chain(more))?;
+        self.picture.as_deref().map_or(Ok(()), output::check_picture)?;
+        self.video.as_deref().map_or(Ok(()), video::check)
     }
 
     /// Refuses formats in which a recording is not written.
     pub fn check_recorded(&self) -> Result<()> {
         self.motions.iter().filter(|path| !is_csv(path)).try_for_each(|path| output::check_format(path))
+    }
+
+    /// Writes the moving pictures, if they are asked for.
+    pub fn write_video(&self, movie: impl FnOnce() -> Movie) -> Result<()> {
+        self.video.as_ref().map_or(Ok(()), |path| video::write(path, &movie()))
     }
 
     /// Writes the report, if one is asked for.
@@ -54,8 +66,14 @@ impl Files {
     }
 }
 
-/// Writes a recording as a file: of all in it, or of one character.
-pub(crate) fn write_recording(path: &Path, recording: &Recording, character: Option<&str>) -> Result<()> {
+/// Writes a recording as a file: of all in it, or of one character. `rig` gives a character's own skeleton where it has one: what one
+/// character does is written on that, and a note says on which.
+pub(crate) fn write_recording(
+    path: &Path,
+    recording: &Recording,
+    character: Option<&str>,
+    rig: impl Fn(&RecordedCharacter) -> Result<Option<OwnRig>>,
+) -> Result<()> {
     output::make_folder(path)?;
     if is_csv(path) {
         if character.is_some() {
@@ -63,16 +81,40 @@ pub(crate) fn write_recording(path: &Path, recording: &Recording, character: Opt
         }
         return output::write_bytes(path, csv(recording, character).as_bytes());
     }
-    let shows_all = character.is_none() && matches!(Format::of(path), Some(Format::Glb | Format::Gltf));
-    let (clip, shapes) = if shows_all {
-        scene_clip(recording)
-    } else {
-        let character = one_of(recording, character, path)?;
-        (character_clip(recording, character), body_shapes(&character.body, 0))
-    };
-    for note in write(path, &WriteJob { clip: &clip, source: None }, &shapes)? {
-        eprintln!("note: {note}");
+    let is_alone = recording.characters.len() == 1 && recording.props.iter().all(|prop| prop.is_sensor);
+    let holds_all = matches!(Format::of(path), Some(Format::Glb | Format::Gltf));
+    let place = path.display();
+    if character.is_none() && holds_all && !is_alone {
+        write_scene(path, &scene_file(recording))?;
+        for character in &recording.characters {
+            if let Some(rig) = rig(character)? {
+                let (name, file) = (&character.name, rig.file().path.display());
+                eprintln!(
+                    "note: {place}: {name} is shown as a body of 18 parts; --character {name} writes it on the skeleton of {file}"
+                );
+            }
+        }
+        return Ok(());
     }
+    let character = one_of(recording, character, path)?;
+    let name = &character.name;
+    let notes = match rig(character)? {
+        Some(rig) => {
+            let (clip, rows) = rig.clip(&character.poses);
+            eprintln!("note: {place}: {name} is on the skeleton and mesh of {}", rig.file().path.display());
+            rig.file().write(path, &clip, &rows, &sinew::figure::body_shapes(&rig.reduction().shapes()))?
+        }
+        None => {
+            eprintln!("note: {place}: {name} has no clip of its own and is written as a body of 18 parts");
+            if holds_all {
+                write_scene(path, &character_scene(recording, character))?;
+                return Ok(());
+            }
+            let clip = character_clip(recording, character);
+            write(path, &WriteJob { clip: &clip, source: None }, &[])?
+        }
+    };
+    notes.iter().for_each(|note| eprintln!("note: {note}"));
     Ok(())
 }
 

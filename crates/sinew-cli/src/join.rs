@@ -4,6 +4,7 @@ use crate::output;
 use crate::run::{Out, press};
 use anyhow::{Context, Result, bail};
 use sinew::control::Command;
+use sinew::jobs::run::Footage;
 use sinew::jobs::session::{JoinReport, View};
 use sinew::live::Port;
 use sinew::live::session::{Client, ConnectionState, Role, Token};
@@ -78,7 +79,8 @@ impl Join {
             // Those of the scene count from its start.
             scene.set("camera.times_secs", "[]")?;
             let first = report.stats.first_step.unwrap_or_default();
-            self.out.write_motion(view.recording(), &scene, &format!("as {whom} saw it from step {first} on"))?;
+            let footage = Footage { recording: view.recording(), scene: &scene, marks: view.marks() };
+            self.out.write_motion(&footage, &format!("as {whom} saw it from step {first} on"))?;
         }
         self.out.files().write_report(&report)?;
         let stats = &report.stats;

@@ -19,6 +19,7 @@ mod respond;
 mod run;
 #[cfg(feature = "session")]
 mod serve;
+mod video;
 #[cfg(not(feature = "session"))]
 mod without_session;
 

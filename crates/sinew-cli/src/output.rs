@@ -71,6 +71,14 @@ pub(crate) fn check_format(path: &Path) -> Result<()> {
     }
 }
 
+/// Refuses a picture in another format than PNG, before any work is done.
+pub(crate) fn check_picture(path: &Path) -> Result<()> {
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
+        return Ok(());
+    }
+    bail!("{}: pictures are drawn as .png; --video draws .gif, .apng and .mp4", path.display())
+}
+
 /// Makes the folder that a file is to be in.
 pub(crate) fn make_folder(path: &Path) -> Result<()> {
     match path.parent() {

@@ -4,12 +4,13 @@ use crate::files::{Files, write_recording};
 use crate::number::within;
 use crate::reach_argument::{ball, from, moving, point};
 use crate::{Reading, Who, output};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::ValueEnum;
 use glam::DVec3;
-use sinew::jobs::reach::{Ball, Hand, MovingPoint, ReachJob, Reached, contact_sheet, reach, sheet};
+use sinew::jobs::reach::{Ball, Hand, MovingPoint, ReachJob, Reached, contact_sheet, movie, reach, sheet};
 use sinew::motion::formats::MotionFile;
 use sinew::reach::Style;
+use sinew::stage::RecordedCharacter;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `sinew reach`.
@@ -79,20 +80,31 @@ enum HandName {
     Auto,
 }
 
+/// Who reaches.
+const BODY: &str = "body";
+
 impl Reach {
     pub(crate) fn run(&self) -> Result<()> {
         let clip = self.from.as_ref().map(|(path, _)| path);
         self.files.check_places(clip.into_iter().chain(&self.reading.skeleton), std::iter::empty())?;
         self.files.check_recorded()?;
+        if self.files.video.is_some() && self.variations.is_some() {
+            bail!("--video shows one reach; leave --variations out");
+        }
         let clip = clip.map(|path| MotionFile::read(path, &self.reading.options())).transpose()?;
         let bar = output::spinner();
         bar.set_message("reaching");
         let mut all = Vec::new();
         for index in 0..self.variations.unwrap_or(1) {
-            let reached = reach(&self.job(self.seed.wrapping_add(index)), clip.as_ref())?;
+            let job = self.job(self.seed.wrapping_add(index));
+            let reached = reach(&job, clip.as_ref())?;
             for path in &self.files.motions {
                 let path = if self.variations.is_some() { numbered(path, index + 1) } else { path.clone() };
-                write_recording(&path, &reached.recording, None)?;
+                let rig =
+                    |_: &RecordedCharacter| Ok(clip.as_ref().map(|file| reached.own_rig(&job, file)).transpose()?);
+                // Out of a clip, the character alone: the targets are no part of its file.
+                let only = clip.as_ref().map(|_| BODY);
+                write_recording(&path, &reached.recording, only, rig)?;
             }
             all.push(reached);
         }
@@ -109,6 +121,9 @@ impl Reach {
         };
         if let Some((path, sheet)) = self.files.picture.as_ref().zip(picture) {
             output::write_bytes(path, &sheet.to_png().context("the picture")?)?;
+        }
+        if let [one] = &all[..] {
+            self.files.write_video(|| movie(one, &title))?;
         }
         bar.finish_and_clear();
         output::say(&self.words(&all))
@@ -147,7 +162,14 @@ impl Reach {
         let place = |point: &DVec3| format!("{}:{}:{}", point.x, point.y, point.z);
         let targets: Vec<String> =
             [&self.target, &self.target_left, &self.target_right].into_iter().flatten().map(place).collect();
-        format!("sinew reach {}", targets.join(" and "))
+        let reach = format!("reach for {}", targets.join(" and "));
+        match &self.from {
+            Some((path, secs)) => {
+                let name = path.file_name().unwrap_or(path.as_os_str()).display();
+                format!("{name} at {secs} s, then {reach}")
+            }
+            None => reach,
+        }
     }
 
     fn words(&self, all: &[Reached]) -> String {

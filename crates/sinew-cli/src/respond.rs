@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use clap::ValueEnum;
 use glam::DVec3;
 use sinew::figure::body_shapes;
-use sinew::jobs::respond::{Answer, RespondError, RespondJob, respond, sheet};
+use sinew::jobs::respond::{Answer, RespondError, RespondJob, movie, respond, sheet};
 use sinew::motion::formats::{MotionFile, ReadOptions};
 use sinew::motion::{Note, Part};
 use sinew::response::{Coordinates, GroundJerk, Preset, Push, PushFrame, Settings};
@@ -152,6 +152,7 @@ fn in_folder(folder: &Path) -> Files {
         motions: vec![folder.join("pushed.bvh"), folder.join("pushed.glb")],
         report: Some(folder.join("report.json")),
         picture: Some(folder.join("pushed.png")),
+        video: Some(folder.join("pushed.gif")),
     }
 }
 
@@ -167,6 +168,11 @@ fn write(files: &Files, file: &MotionFile, answer: &Answer, job: &RespondJob) ->
         let title = file.path.file_name().unwrap_or(file.path.as_os_str()).display().to_string();
         let png = sheet(answer, file.body_parts()?, job, &title).to_png().context("the picture")?;
         output::write_bytes(path, &png)?;
+    }
+    if files.video.is_some() {
+        let title = file.path.file_name().unwrap_or(file.path.as_os_str()).display().to_string();
+        let humanoid = file.body_parts()?;
+        files.write_video(|| movie(answer, humanoid, job, &title))?;
     }
     Ok(notes)
 }

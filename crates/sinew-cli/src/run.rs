@@ -6,9 +6,9 @@ use crate::live::LiveArguments;
 use crate::output;
 use crate::progress::Progress;
 use anyhow::{Context, Result, bail};
-use sinew::jobs::run::{Ran, RunJob, replay, run, sheet};
+use sinew::jobs::run::{Footage, Ran, RunJob, movie, replay, run, sheet};
 use sinew::script::ScriptHost;
-use sinew::stage::{Observer, Recording, Scene, Take};
+use sinew::stage::{Observer, OwnRig, RecordedCharacter, Scene, Take};
 use std::path::PathBuf;
 
 /// Arguments of `sinew run`.
@@ -156,14 +156,14 @@ impl Out {
 
     fn write(&self, ran: &Ran, scene: &Scene) -> Result<()> {
         let subtitle = format!("{:.2} s, {} physics steps", ran.report.duration_s, ran.report.steps);
-        self.write_motion(&ran.recording, scene, &subtitle)?;
+        self.write_motion(&Footage { recording: &ran.recording, scene, marks: &ran.marks }, &subtitle)?;
         self.files.write_report(&ran.report)
     }
 
     /// Whether anything is asked for that needs the motion.
     #[cfg(feature = "session")]
     pub(crate) fn needs_motion(&self) -> bool {
-        !self.files.motions.is_empty() || self.files.picture.is_some()
+        !self.files.motions.is_empty() || self.files.picture.is_some() || self.files.video.is_some()
     }
 
     /// Where results go.
@@ -172,17 +172,19 @@ impl Out {
         &self.files
     }
 
-    /// Motion files and the picture.
-    pub(crate) fn write_motion(&self, recording: &Recording, scene: &Scene, subtitle: &str) -> Result<()> {
+    /// Motion files, the picture, and moving pictures.
+    pub(crate) fn write_motion(&self, footage: &Footage, subtitle: &str) -> Result<()> {
+        let scene = footage.scene;
         for path in &self.files.motions {
-            write_recording(path, recording, self.character.as_deref())?;
+            let rig = |character: &RecordedCharacter| Ok(OwnRig::of(scene, &character.name, footage.recording.frames)?);
+            write_recording(path, footage.recording, self.character.as_deref(), rig)?;
         }
+        let title = scene.name.clone().unwrap_or_else(|| scene.file_name().to_owned());
         if let Some(path) = &self.files.picture {
-            let title = scene.name.clone().unwrap_or_else(|| scene.file_name().to_owned());
-            let png = sheet(recording, scene, &title, subtitle).to_png().context("the picture")?;
+            let png = sheet(footage, &title, subtitle).to_png().context("the picture")?;
             output::write_bytes(path, &png)?;
         }
-        Ok(())
+        self.files.write_video(|| movie(footage, &title))
     }
 
     fn say(&self, ran: &Ran, title: &str, take: Option<&PathBuf>) -> Result<()> {

@@ -4,6 +4,7 @@ use crate::interactive::Interactive;
 use crate::output;
 use crate::run::{Out, assignment};
 use anyhow::{Context, Result};
+use sinew::jobs::run::Footage;
 use sinew::jobs::session::{ServeJob, serve};
 use sinew::live::session::{Role, SceneManifest, Server, ServerSettings, limits};
 use sinew::script::ScriptHost;
@@ -80,7 +81,8 @@ impl Serve {
         let run = &served.report.run;
         if let Some(recording) = &served.recording {
             let subtitle = format!("{:.2} s, {} physics steps, served", run.duration_s, run.steps);
-            self.out.write_motion(recording, &for_picture, &subtitle)?;
+            let footage = Footage { recording, scene: &for_picture, marks: &served.marks };
+            self.out.write_motion(&footage, &subtitle)?;
         }
         self.out.files().write_report(&served.report)?;
         let clients = &served.report.clients;

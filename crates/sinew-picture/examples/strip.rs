@@ -1,11 +1,12 @@
-//! Draws a pushed walker and a plot of its lean: `cargo run -p sinew-picture --example strip [OUT.png]`.
+//! Draws a pushed walker and a plot of its lean, and the walker as a GIF beside it:
+//! `cargo run -p sinew-picture --example strip [OUT.png]`.
 //!
 //! What it does not do: the walker is made of sines, not of physics.
 
 #[path = "../tests/all/common/mod.rs"]
 mod common;
 
-use sinew_picture::{Camera, Filmstrip, Limit, Mark, Plot, Series, Sheet};
+use sinew_picture::{Camera, Filmstrip, Limit, Mark, Movie, Plot, Series, Sheet};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let strip = Filmstrip {
@@ -47,6 +48,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let png = picture.to_png()?;
     let path = std::env::args().nth(1).map_or_else(|| std::env::temp_dir().join("strip.png"), Into::into);
     std::fs::write(&path, &png)?;
+    let movie = Movie {
+        title: "Pushed while walking".to_owned(),
+        panels: (0..60).map(|frame| common::panel(0.5 + f64::from(frame) / 25.0)).collect(),
+        camera: Camera::side(),
+        ..Movie::default()
+    };
+    std::fs::write(path.with_extension("gif"), movie.to_gif()?)?;
     println!("{}: {} × {} px, {} kB", path.display(), picture.width(), picture.height(), png.len() / 1000);
     let left = sinew_picture::Shade::Left.colour();
     let blue = picture.rgba().chunks_exact(4).filter(|pixel| pixel[2] > pixel[0].saturating_add(60)).count();

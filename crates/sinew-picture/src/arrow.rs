@@ -6,7 +6,7 @@ use crate::canvas::{Canvas, Spot};
 use crate::colour::{ARROW, PAPER};
 use crate::figure::is_drawable;
 use crate::lens::Lens;
-use crate::text::{Anchor, Type};
+use crate::text::Type;
 
 /// An arrow whose projection is shorter than this \[units\] is drawn as a ring.
 const SHORT: f32 = 20.0;
@@ -70,23 +70,8 @@ impl Arrow {
 
     fn write(&self, canvas: &mut Canvas, root: Spot, above: bool, unit: f32, taken: &mut Vec<[f32; 4]>) {
         let font = Type::strong(14.0 * unit, ARROW);
-        let text = font.fit(&self.text(), canvas.width() - 14.0 * unit);
-        let half = font.width(&text) / 2.0;
-        let x = root.0.max(half + 7.0 * unit).min(canvas.width() - half - 7.0 * unit);
-        let line = 16.0 * unit;
-        let mut y = if above { root.1 - 7.0 * unit } else { root.1 + line };
-        for _ in 0..12 {
-            let own = [x - half, y - line * 0.75, x + half, y + line * 0.25];
-            let clear =
-                |other: &[f32; 4]| own[0] > other[2] || own[2] < other[0] || own[1] > other[3] || own[3] < other[1];
-            if taken.iter().all(clear) {
-                break;
-            }
-            y += if above { -line } else { line };
-        }
-        y = y.max(line).min(canvas.height() - 4.0 * unit);
-        taken.push([x - half, y - line * 0.75, x + half, y + line * 0.25]);
-        canvas.text_with_rim((x, y), Anchor::Middle, font, PAPER, &text);
+        let at = if above { (root.0, root.1 - 7.0 * unit) } else { (root.0, root.1 + 16.0 * unit) };
+        canvas.label(at, above, font, PAPER, &self.text(), unit, taken);
     }
 }
 

@@ -1,27 +1,17 @@
-//! Bodies with a depth buffer: every sample of a panel finds the capsule nearest to the viewer.
+//! Bodies with a depth buffer: every sample of a panel finds the shape nearest to the viewer.
 //!
-//! Painter's sorting of whole capsules fails where limbs cross (a forearm lies partly before, partly behind the trunk),
+//! Painter's sorting of whole shapes fails where limbs cross (a forearm lies partly before, partly behind the trunk),
 //! so depth is kept per sample. Edges come from jumps in depth, and lie on the farther side, so the nearer limb keeps its
 //! full width and reads as being in front.
 
 use glam::Vec3;
 
+use crate::Colour;
 use crate::canvas::Canvas;
-use crate::cone::Cone;
-use crate::{Colour, Shade};
+use crate::solid::{Solid, Surface};
 
 /// Samples per pixel along each axis; the edges are as smooth as this squared.
 const SAMPLES: usize = 3;
-
-/// A capsule in panel axes: x right, y *up* from the panel's top edge (so negative), z toward the viewer \[px\].
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Solid {
-    pub from: Vec3,
-    pub to: Vec3,
-    pub radius_from: f32,
-    pub radius_to: f32,
-    pub shade: Shade,
-}
 
 /// How a body is painted.
 #[derive(Clone, Copy)]
@@ -40,6 +30,8 @@ pub(crate) struct Look {
     pub edge_jump_px: f32,
     /// The colour to which far limbs fade.
     pub haze: Colour,
+    /// Light and haze in this many steps instead of smoothly: flat areas, which a film's file holds in few bytes.
+    pub steps: Option<f32>,
     /// The floor; parts below it are drawn faintly. `None` draws everything alike.
     pub floor: Option<Floor>,
 }
@@ -60,7 +52,7 @@ const EMPTY: f32 = f32::NEG_INFINITY;
 #[derive(Default)]
 pub(crate) struct Painter {
     depth: Vec<f32>,
-    /// Index of the capsule, where `depth` is set.
+    /// Index of the shape, where `depth` is set.
     surface: Vec<u16>,
     /// Minimum and maximum depth in each pixel.
     range: Vec<(f32, f32)>,
@@ -79,8 +71,8 @@ impl Painter {
         self.range.resize(columns * rows, (EMPTY, EMPTY));
         let mut span: Option<Span> = None;
         let scene = Scene::new(solids, look);
-        for (index, (cone, _)) in scene.cones.iter().enumerate() {
-            if let Some(drawn) = self.add(index as u16, cone) {
+        for (index, (surface, _)) in scene.surfaces.iter().enumerate() {
+            if let Some(drawn) = self.add(index as u16, surface) {
                 span = Some(span.map_or(drawn, |span| span.with(drawn)));
             }
         }
@@ -97,20 +89,20 @@ impl Painter {
         }
     }
 
-    /// Draws a capsule into the depth buffer; returns the part of the buffer that it may have changed.
-    fn add(&mut self, index: u16, cone: &Cone) -> Option<Span> {
+    /// Draws a shape into the depth buffer; returns the part of the buffer that it may have changed.
+    fn add(&mut self, index: u16, shape: &Surface) -> Option<Span> {
         // Samples lie at half steps; y runs up, rows run down.
         let clip = |low: f32, high: f32, size: usize| {
             let (first, last) = ((low - 0.5).ceil().max(0.0), (high - 0.5).floor().min(size as f32 - 1.0));
             (first <= last).then_some((first as usize, last as usize))
         };
-        let nearest = cone.nearest();
-        let (low, high) = cone.rows();
+        let nearest = shape.depths().1;
+        let (low, high) = shape.rows();
         let (top, bottom) = clip(-high, -low, self.height)?;
         let mut touched: Option<Span> = None;
         for row in top..=bottom {
             let y = -(row as f32 + 0.5);
-            let Some((left, right)) = cone.columns(y).and_then(|(left, right)| clip(left, right, self.width)) else {
+            let Some((left, right)) = shape.columns(y).and_then(|(left, right)| clip(left, right, self.width)) else {
                 continue;
             };
             let span = Span { left, right, top: row, bottom: row };
@@ -120,7 +112,7 @@ impl Painter {
                 if self.depth[at] >= nearest {
                     continue;
                 }
-                let Some(depth) = cone.depth(column as f32 + 0.5, y) else { continue };
+                let Some((depth, _)) = shape.hit(column as f32 + 0.5, y) else { continue };
                 if depth > self.depth[at] {
                     self.depth[at] = depth;
                     self.surface[at] = index;
@@ -174,7 +166,7 @@ impl Painter {
             return;
         }
         let (mut colour, mut cover) = ([0.0f32; 3], 0.0f32);
-        // Light changes slowly: within a pixel each capsule is lit once.
+        // Light changes slowly: within a pixel each shape is lit once.
         let mut lit: Option<(u16, [f32; 3])> = None;
         for down in 0..SAMPLES {
             for right in 0..SAMPLES {
@@ -192,7 +184,7 @@ impl Painter {
         }
     }
 
-    /// Whether every sample of a pixel lies on the same capsule.
+    /// Whether every sample of a pixel lies on the same shape.
     fn is_one_surface(&self, column: usize, row: usize) -> bool {
         let first = self.surface[row * SAMPLES * self.width + column * SAMPLES];
         (0..SAMPLES).all(|down| {
@@ -201,7 +193,7 @@ impl Painter {
         })
     }
 
-    /// Colour and opacity of one sample; `lit` is the capsule lit last and its colour.
+    /// Colour and opacity of one sample; `lit` is the shape lit last and its colour.
     fn sample(
         &self,
         x: usize,
@@ -261,40 +253,40 @@ impl Painter {
 /// Data shared by all pixels of one body.
 struct Scene<'a> {
     look: &'a Look,
-    /// The capsules in samples, and their tints.
-    cones: Vec<(Cone, [f32; 3])>,
-    /// Farthest and nearest centre \[samples\].
+    /// The shapes in samples, and their tints.
+    surfaces: Vec<(Surface, [f32; 3])>,
+    /// Farthest and nearest point \[samples\].
     far: f32,
     near: f32,
 }
 
 impl<'a> Scene<'a> {
     fn new(solids: &[Solid], look: &'a Look) -> Scene<'a> {
-        let scale = SAMPLES as f32;
-        let cone = |solid: &Solid| {
+        let surface = |solid: &Solid| {
             let tint = look.single.unwrap_or(solid.shade.colour()).channels();
-            Cone::new(solid.from * scale, solid.to * scale, solid.radius_from * scale, solid.radius_to * scale)
-                .map(|cone| (cone, tint))
+            Some((solid.form.surface(SAMPLES as f32)?, tint))
         };
-        let depths = solids.iter().flat_map(|solid| [solid.from.z * scale, solid.to.z * scale]);
-        let (far, near) = depths.fold((f32::MAX, f32::MIN), |(far, near), depth| (far.min(depth), near.max(depth)));
-        let mut cones: Vec<(Cone, [f32; 3])> = solids.iter().take(usize::from(u16::MAX)).filter_map(cone).collect();
+        let mut surfaces: Vec<(Surface, [f32; 3])> =
+            solids.iter().take(usize::from(u16::MAX)).filter_map(surface).collect();
+        let depths = surfaces.iter().map(|(surface, _)| surface.depths());
+        let (far, near) = depths.fold((f32::MAX, f32::MIN), |(far, near), own| (far.min(own.0), near.max(own.1)));
         // The nearest first: most of what lies behind is then rejected by depth.
-        cones.sort_by(|a, b| b.0.nearest().total_cmp(&a.0.nearest()));
-        Scene { look, cones, far, near }
+        surfaces.sort_by(|a, b| b.0.depths().1.total_cmp(&a.0.depths().1));
+        Scene { look, surfaces, far, near }
     }
 
-    /// Colour of a capsule at a sample.
+    /// Colour of a shape at a sample.
     fn colour(&self, index: u16, x: usize, y: usize, depth: f32) -> [f32; 3] {
         const HAZE: f32 = 0.30;
         // Shadows lean to blue, as under a sky: plain darkening looks dirty.
         const COOL: [f32; 3] = [-0.08, -0.02, 0.12];
-        let (cone, tint) = &self.cones[usize::from(index)];
-        let normal = cone.hit(x as f32 + 0.5, -(y as f32 + 0.5)).map_or(Vec3::Z, |hit| hit.1);
-        let light = light(normal);
+        let (surface, tint) = &self.surfaces[usize::from(index)];
+        let normal = surface.hit(x as f32 + 0.5, -(y as f32 + 0.5)).map_or(Vec3::Z, |hit| hit.1);
+        let light = stepped(light(normal), self.look.steps);
         let shadow = (1.0 - light).clamp(0.0, 1.0);
         let haze = self.look.haze.channels();
-        let away = ((self.near - depth) / (self.near - self.far).max(1.0)).clamp(0.0, 1.0) * HAZE;
+        let away = ((self.near - depth) / (self.near - self.far).max(1.0)).clamp(0.0, 1.0);
+        let away = stepped(away, self.look.steps.map(|steps| steps / 4.0)) * HAZE;
         std::array::from_fn(|channel| {
             let lit = tint[channel] * light * (1.0 + COOL[channel] * shadow);
             lit + (haze[channel] - lit) * away
@@ -308,6 +300,11 @@ impl Floor {
         let height = self.rise.0 * -(row as f32 + 0.5) / SAMPLES as f32 + self.rise.1 * depth / SAMPLES as f32;
         if height < self.level { 0.35 } else { 1.0 }
     }
+}
+
+/// A share, rounded to a number of steps.
+pub(crate) fn stepped(share: f32, steps: Option<f32>) -> f32 {
+    steps.map_or(share, |steps| (share * steps).round() / steps)
 }
 
 /// Light on a surface by its normal in panel axes.

@@ -52,7 +52,7 @@ impl<'a> Chart<'a> {
         let widest = y_ticks.values().map(|value| font.width(&y_ticks.label(value))).fold(0.0, f32::max);
         let left = (if plot.y_label.trim().is_empty() { 24.0 } else { 52.0 } * unit + widest + 10.0 * unit).ceil();
         let names = series.iter().map(|series| font.width(&font.fit(&series.name, 230.0 * unit)));
-        let legend = if series.is_empty() { 0.0 } else { names.fold(0.0, f32::max) + 150.0 * unit };
+        let legend = if series.is_empty() { 0.0 } else { names.fold(0.0, f32::max) + 170.0 * unit };
         let right = (width - 24.0 * unit - legend).floor();
         let x_ticks = Ticks::within(x.0, x.1, f64::from((right - left) / (120.0 * unit)));
 
@@ -126,6 +126,7 @@ impl<'a> Chart<'a> {
         for &(index, _) in self.order.iter().rev() {
             self.paint_series(canvas, index);
         }
+        self.paint_limit_names(canvas);
         self.paint_legend(canvas);
         Ok(sheet)
     }
@@ -173,11 +174,20 @@ impl<'a> Chart<'a> {
     fn paint_limits(&self, canvas: &mut Canvas) {
         let unit = self.unit;
         let [left, _, right, _] = self.field;
-        let font = Type::plain(13.0 * unit, INK_SOFT);
         for limit in limits(self.plot) {
             let y = self.spot(self.x.0, limit.value).1;
             let dash = [6.0 * unit, 5.0 * unit];
             canvas.polyline(&[(left, y), (right, y)], 1.4 * unit, INK_SOFT, &dash);
+        }
+    }
+
+    /// Over the lines, so that none runs through the words.
+    fn paint_limit_names(&self, canvas: &mut Canvas) {
+        let unit = self.unit;
+        let [left, _, right, _] = self.field;
+        let font = Type::plain(13.0 * unit, INK_SOFT);
+        for limit in limits(self.plot) {
+            let y = self.spot(self.x.0, limit.value).1;
             let label = font.fit(limit.label.trim(), (right - left) / 2.0);
             canvas.text_with_rim((right - 6.0 * unit, y - 6.0 * unit), Anchor::End, font, PAPER, &label);
         }
@@ -237,12 +247,15 @@ impl<'a> Chart<'a> {
         if !self.order.is_empty() {
             canvas.text((right, y - 20.0 * unit), Anchor::End, Type::plain(12.0 * unit, INK_SOFT), "peak");
         }
+        let largest = self.order.iter().filter_map(|(_, peak)| *peak).map(f64::abs).fold(0.0, f64::max);
         for &(index, peak) in &self.order {
             let line = [(left, y - 5.0 * unit), (left + 38.0 * unit, y - 5.0 * unit)];
             canvas.polyline(&line, LINE * unit, colour(self.plot, index), &self.dash(index));
             let name = font.fit(&self.plot.series[index].name, 230.0 * unit);
             canvas.text((left + 46.0 * unit, y), Anchor::Start, font, &name);
-            let peak = peak.map_or("no data".to_owned(), three_digits);
+            // What is nothing beside the rest is a rounding error.
+            let digits = |peak: f64| if peak.abs() < largest * 1e-6 { 0.0 } else { peak };
+            let peak = peak.map_or("no data".to_owned(), |peak| three_digits(digits(peak)) + &self.plot.unit);
             canvas.text((right, y), Anchor::End, soft, &peak);
             y += LEGEND_ROW * unit;
         }

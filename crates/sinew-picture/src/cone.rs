@@ -49,6 +49,11 @@ impl Cone {
         (self.from.z + self.radius_from).max(self.to.z + self.radius_to)
     }
 
+    /// Depth of its point farthest from the viewer.
+    pub fn farthest(&self) -> f32 {
+        (self.from.z - self.radius_from).min(self.to.z - self.radius_to)
+    }
+
     /// Lowest and highest y that it covers.
     pub fn rows(&self) -> (f32, f32) {
         let low = (self.from.y - self.radius_from).min(self.to.y - self.radius_to);
@@ -86,11 +91,6 @@ impl Cone {
             }
         }
         span
-    }
-
-    /// Depth of the surface nearest to the viewer on the ray through (x, y).
-    pub fn depth(&self, x: f32, y: f32) -> Option<f32> {
-        self.hit(x, y).map(|hit| hit.0)
     }
 
     /// Depth and unit normal of the surface nearest to the viewer on the ray through (x, y).

@@ -13,6 +13,15 @@ pub enum Error {
         /// Requested height \[px\].
         height_px: u32,
     },
+    /// A movie with more frames than [`MAX_MOVIE_FRAMES`](crate::limits::MAX_MOVIE_FRAMES).
+    #[error("a movie of {frames} frames is too long; show at most ten minutes, which are 15,000 frames")]
+    TooLong {
+        /// Requested frames.
+        frames: usize,
+    },
+    /// The encoder of a movie failed.
+    #[error("the movie cannot be written: {0}; try a shorter or smaller one")]
+    EncodeMovie(String),
     /// The PNG encoder failed.
     #[error("the picture cannot be written as PNG: {0}; try a smaller width")]
     Encode(String),

@@ -1,11 +1,11 @@
-//! Bodies for pictures: tapered capsules.
+//! Bodies and things for pictures: tapered capsules and boxes.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::Colour;
-use crate::limits::{MAX_CAPSULES, MAX_COORDINATE_M, MAX_RADIUS_M};
+use crate::limits::{MAX_COORDINATE_M, MAX_RADIUS_M, MAX_SHAPES};
 
-/// What a capsule belongs to: it sets the tint, so that a viewer can tell left from right.
+/// What a shape belongs to: it sets the tint, so that a viewer can tell left from right.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Shade {
     /// Trunk, neck and head: warm grey.
@@ -73,31 +73,80 @@ impl Capsule {
     }
 }
 
-/// A body, or anything else made of capsules.
+/// A box with sharp edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cuboid {
+    /// Its middle \[m\], world, Y up.
+    pub centre: DVec3,
+    /// `world_from_box`.
+    pub rotation: DQuat,
+    /// Lengths of its edges along its own axes \[m\], each above 0.
+    pub size_m: DVec3,
+    /// What it belongs to.
+    pub shade: Shade,
+}
+
+impl Cuboid {
+    /// The box with its edges clamped, or `None` if it cannot be drawn.
+    fn drawable(&self) -> Option<Cuboid> {
+        let rotation = self.rotation.is_finite().then(|| self.rotation.normalize()).filter(|turn| turn.is_finite())?;
+        let sized = self.size_m.is_finite() && self.size_m.min_element() > 0.0;
+        (is_drawable(self.centre) && sized).then_some(())?;
+        Some(Cuboid { rotation, size_m: self.size_m.min(DVec3::splat(2.0 * MAX_RADIUS_M)), ..*self })
+    }
+
+    /// Its eight corners \[m\], world.
+    pub(crate) fn corners(&self) -> [DVec3; 8] {
+        std::array::from_fn(|corner| {
+            let side = |bit: usize| if corner >> bit & 1 == 0 { -0.5 } else { 0.5 };
+            self.centre + self.rotation * (self.size_m * DVec3::new(side(0), side(1), side(2)))
+        })
+    }
+}
+
+/// A body, or anything else made of capsules and boxes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// The capsules, in any order: nearer ones hide farther ones. Those with a coordinate or radius that is not finite
     /// or a radius of 0 or less are skipped.
     pub capsules: Vec<Capsule>,
+    /// The boxes, likewise.
+    pub boxes: Vec<Cuboid>,
 }
 
 impl Figure {
     /// A figure of capsules.
     pub fn new(capsules: Vec<Capsule>) -> Figure {
-        Figure { capsules }
+        Figure { capsules, boxes: Vec::new() }
     }
 
     /// The capsules that can be drawn.
     pub(crate) fn drawable(&self) -> impl Iterator<Item = Capsule> + '_ {
-        self.capsules.iter().take(MAX_CAPSULES).filter_map(Capsule::drawable)
+        self.capsules.iter().take(MAX_SHAPES).filter_map(Capsule::drawable)
+    }
+
+    /// The boxes that can be drawn.
+    pub(crate) fn drawable_boxes(&self) -> impl Iterator<Item = Cuboid> + '_ {
+        self.boxes.iter().take(MAX_SHAPES).filter_map(Cuboid::drawable)
+    }
+
+    /// How many shapes are left out because there are more than [`MAX_SHAPES`].
+    pub(crate) fn left_out(&self) -> usize {
+        self.capsules.len().saturating_sub(MAX_SHAPES) + self.boxes.len().saturating_sub(MAX_SHAPES)
+    }
+
+    /// Points that span it, each with the distance \[m\] to which it reaches around them.
+    pub(crate) fn points(&self) -> impl Iterator<Item = (DVec3, f64)> + '_ {
+        let ends = |capsule: Capsule| [(capsule.from, capsule.radius_from_m), (capsule.to, capsule.radius_to_m)];
+        let corners = self.drawable_boxes().flat_map(|cuboid| cuboid.corners().map(|corner| (corner, 0.0)));
+        self.drawable().flat_map(ends).chain(corners)
     }
 
     /// The middle of the box around the figure \[m\], world; `None` if there is nothing to draw.
     pub fn middle(&self) -> Option<DVec3> {
-        let ends = self.drawable().flat_map(|capsule| [capsule.from, capsule.to]);
-        let (low, high) = ends.fold(None, |span: Option<(DVec3, DVec3)>, end| {
-            let (low, high) = span.unwrap_or((end, end));
-            Some((low.min(end), high.max(end)))
+        let (low, high) = self.points().fold(None, |span: Option<(DVec3, DVec3)>, (point, _)| {
+            let (low, high) = span.unwrap_or((point, point));
+            Some((low.min(point), high.max(point)))
         })?;
         Some((low + high) / 2.0)
     }

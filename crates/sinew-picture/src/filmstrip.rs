@@ -4,23 +4,27 @@ use glam::DVec3;
 
 use crate::arrow::Arrow;
 use crate::limits::{MAX_WIDTH_PX, MIN_WIDTH_PX};
-use crate::{Camera, Error, Figure, Image, strip};
+use crate::{Camera, Error, Figure, Hit, Image, strip};
 
 /// One moment of a motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
     /// Its time \[s\]; written under the panel if finite.
     pub time_secs: f64,
-    /// The body.
+    /// The body, or all bodies; the whole of it is in the picture.
     pub figure: Figure,
+    /// Things around it. One far from every body may leave the picture, so that bodies stay large.
+    pub objects: Figure,
     /// The ghost that it is compared with, as a rule the input motion: drawn pale, behind the body.
     pub ghost: Option<Figure>,
     /// Forces at this moment.
     pub arrows: Vec<Arrow>,
+    /// Impacts at this moment.
+    pub hits: Vec<Hit>,
     /// The point that the panel keeps in its middle \[m\], world, as a rule the pelvis; only its horizontal position
     /// counts. `None` takes the middle of the figure, which sways with the arms.
     pub follow: Option<DVec3>,
-    /// A caption under the time; may be empty.
+    /// A caption under the time, two lines at most; may be empty.
     pub caption: String,
 }
 
@@ -29,8 +33,11 @@ pub struct Panel {
 pub struct Style {
     /// Width of the picture \[px\], [`MIN_WIDTH_PX`] to [`MAX_WIDTH_PX`]; text and lines scale with it. Default 1800.
     pub width_px: u32,
-    /// Maximum number of panels in a row; more wrap into rows of equal length. Default 8.
+    /// Maximum number of panels in a row; more wrap into rows of equal length. There are fewer where a body would be lower
+    /// than 240 px (of a picture 1800 px wide). Default 8.
     pub columns: usize,
+    /// Height of a standing body \[m\]. Default 1.7.
+    pub body_height_m: f64,
     /// Height of the floor \[m\], world. Default 0.
     pub floor_m: f64,
     /// Name of the ghost, for the legend. Default "input motion".
@@ -39,7 +46,7 @@ pub struct Style {
 
 impl Default for Style {
     fn default() -> Style {
-        Style { width_px: 1800, columns: 8, floor_m: 0.0, ghost_name: "input motion".to_owned() }
+        Style { width_px: 1800, columns: 8, body_height_m: 1.7, floor_m: 0.0, ghost_name: "input motion".to_owned() }
     }
 }
 

@@ -5,9 +5,11 @@
 
 use glam::{DVec3, Vec2};
 
+use crate::body::stepped;
 use crate::canvas::Canvas;
 use crate::colour::{HAIRLINE, INK_SOFT};
 use crate::lens::Lens;
+use crate::shadow::{Shadow, smooth, total};
 use crate::text::{Anchor, Type};
 use crate::{Colour, Figure};
 
@@ -34,14 +36,22 @@ fn rise(lens: &Lens) -> f64 {
     lens.view.toward.y
 }
 
-/// Paints tiles and shadows down to `bottom` \[px\].
-pub(crate) fn paint(canvas: &mut Canvas, lens: &Lens, figure: &Figure, bottom: f32) {
+/// Paints tiles and shadows down to `bottom` \[px\], in `steps` of light or smoothly.
+pub(crate) fn paint(canvas: &mut Canvas, lens: &Lens, figures: [&Figure; 2], bottom: f32, steps: Option<f32>) {
     let rise = rise(lens);
     if rise <= FLAT {
         canvas.rect(0.0, lens.at.1, canvas.width(), 1.5, INK_SOFT);
         return;
     }
-    let shadows: Vec<Shadow> = figure.drawable().filter_map(|capsule| Shadow::new(&capsule, lens.origin)).collect();
+    let of = |figure: &Figure| {
+        let boxes = figure.drawable_boxes().filter_map(|cuboid| Shadow::of_box(&cuboid, lens.origin));
+        figure
+            .drawable()
+            .filter_map(|capsule| Shadow::of_capsule(&capsule, lens.origin))
+            .chain(boxes)
+            .collect::<Vec<_>>()
+    };
+    let shadows: Vec<Shadow> = figures.into_iter().flat_map(of).collect();
     let away = DVec3::Y.cross(lens.view.right);
     let right = lens.view.right;
     let top = (f64::from(lens.at.1) - FAR_M * rise * lens.scale).floor().max(0.0) as u32;
@@ -53,7 +63,7 @@ pub(crate) fn paint(canvas: &mut Canvas, lens: &Lens, figure: &Figure, bottom: f
     let (light, dark, shade) = (LIGHT_TILE.channels(), DARK_TILE.channels(), SHADOW.channels());
     for row in top..bottom {
         let depth = (f64::from(lens.at.1) - f64::from(row) - 0.5) / lens.scale / rise;
-        let shown = smooth(((FAR_M - depth) / FAR_M) as f32);
+        let shown = stepped(smooth(((FAR_M - depth) / FAR_M) as f32), steps.map(|steps| steps / 2.0));
         let near: Vec<&Shadow> = shadows.iter().filter(|shadow| shadow.reaches(depth as f32, away)).collect();
         for column in 0..canvas.pixmap.width() {
             let side = (f64::from(column) + 0.5 - f64::from(lens.at.0)) / lens.scale;
@@ -64,7 +74,7 @@ pub(crate) fn paint(canvas: &mut Canvas, lens: &Lens, figure: &Figure, bottom: f
             let tile = std::array::from_fn(|channel| light[channel] + (dark[channel] - light[channel]) * darkness);
             canvas.blend(column as i32, row as i32, tile, shown);
             let under = Vec2::new(offset.x as f32, offset.z as f32);
-            let shadow = total(&near, under);
+            let shadow = stepped(total(&near, under), steps);
             if shadow > 0.004 {
                 canvas.blend(column as i32, row as i32, shade, shadow * shown.max(0.25));
             }
@@ -83,73 +93,7 @@ fn wave(at: f64, width: f64) -> f64 {
     (integral(at + width / 2.0) - integral(at - width / 2.0)) / width
 }
 
-/// 0 below 0, 1 above 1, and no corner between.
-fn smooth(share: f32) -> f32 {
-    let share = share.clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
-}
-
-/// A capsule projected to the floor; positions from the followed point, x and z \[m\].
-struct Shadow {
-    from: Vec2,
-    to: Vec2,
-    /// Height of the underside over the floor \[m\] at each end.
-    gap: (f32, f32),
-    radius: (f32, f32),
-    /// Maximum distance of its surface from the axis \[m\].
-    reach: f32,
-}
-
-impl Shadow {
-    fn new(capsule: &crate::Capsule, origin: DVec3) -> Option<Shadow> {
-        let end = |end: DVec3| Vec2::new((end.x - origin.x) as f32, (end.z - origin.z) as f32);
-        let gap = |end: DVec3, radius_m: f64| (end.y - origin.y - radius_m).max(0.0) as f32;
-        let gap = (gap(capsule.from, capsule.radius_from_m), gap(capsule.to, capsule.radius_to_m));
-        let radius = (capsule.radius_from_m as f32, capsule.radius_to_m as f32);
-        // Height above which its shadow is too faint and wide to see.
-        let reach = radius.0.max(radius.1) * 1.6 + 0.10 + gap.0.max(gap.1) * 0.35;
-        (gap.0.min(gap.1) < 1.3).then(|| Shadow { from: end(capsule.from), to: end(capsule.to), gap, radius, reach })
-    }
-
-    /// Whether any of it lies at this distance from the followed point in the direction `away` \[m\].
-    fn reaches(&self, depth: f32, away: DVec3) -> bool {
-        let away = Vec2::new(away.x as f32, away.z as f32);
-        let (from, to) = (self.from.dot(away), self.to.dot(away));
-        depth >= from.min(to) - self.reach && depth <= from.max(to) + self.reach
-    }
-
-    /// Contact shadow (dark, close) and ambient shadow (faint, wide) under a point of the floor.
-    fn at(&self, point: Vec2) -> (f32, f32) {
-        let axis = self.to - self.from;
-        let share = ((point - self.from).dot(axis) / axis.length_squared().max(1e-9)).clamp(0.0, 1.0);
-        let off = point - self.from - axis * share;
-        if off.length_squared() > self.reach * self.reach {
-            return (0.0, 0.0);
-        }
-        let away = off.length();
-        let gap = self.gap.0 + (self.gap.1 - self.gap.0) * share;
-        let radius = self.radius.0 + (self.radius.1 - self.radius.0) * share;
-        let contact_reach = radius * 1.15 + 0.02 + gap * 0.35;
-        let wide_reach = radius * 1.6 + 0.10 + gap * 0.35;
-        let steep = gap / 0.045;
-        (
-            0.62 / (1.0 + steep * steep) * smooth(1.0 - away / contact_reach),
-            0.16 / (1.0 + gap * 1.5) * smooth(1.0 - away / wide_reach),
-        )
-    }
-}
-
-fn total(shadows: &[&Shadow], point: Vec2) -> f32 {
-    let (mut contact, mut light) = (0.0f32, 1.0f32);
-    for shadow in shadows {
-        let (close, wide) = shadow.at(point);
-        contact = contact.max(close);
-        light *= 1.0 - wide;
-    }
-    1.0 - (1.0 - contact) * light.max(0.72)
-}
-
-/// Ticks each half metre and numbers each metre along the floor's near edge, at `top` \[px\].
+/// Ticks each half metre, and each metre its axis and number, along the floor's near edge, at `top` \[px\].
 pub(crate) fn ruler(canvas: &mut Canvas, lens: &Lens, top: f32, unit: f32) {
     let right = lens.view.right;
     // The world axis that runs more across the picture.
@@ -175,7 +119,11 @@ pub(crate) fn ruler(canvas: &mut Canvas, lens: &Lens, top: f32, unit: f32) {
         canvas.rect(x, top, unit.max(1.0), if whole { 6.0 } else { 4.0 } * unit, INK_SOFT);
         let font = Type::plain(11.5 * unit, INK_SOFT);
         let metres = tick * TILE_M;
-        let label = if metres.abs() < 1e5 { format!("{metres:.0} m").replace('-', "−") } else { String::new() };
+        let label = if metres.abs() < 1e5 {
+            format!("{} {metres:.0} m", if along_x { "x" } else { "z" }).replace('-', "−")
+        } else {
+            String::new()
+        };
         let half = font.width(&label) / 2.0;
         if whole && x > half + 2.0 && x + half + 2.0 < canvas.width() {
             canvas.text((x, top + 18.0 * unit), Anchor::Middle, font, &label);
@@ -193,15 +141,5 @@ mod tests {
         assert!((wave(1.5, 0.01) + 1.0).abs() < 1e-9);
         assert!((wave(-0.5, 0.01) + 1.0).abs() < 1e-9);
         assert!(wave(0.3, 2.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn a_lifted_foot_leaves_a_fainter_shadow_than_one_on_the_floor() {
-        let foot = |height: f64| {
-            let ends = (DVec3::new(0.0, height, 0.0), DVec3::new(0.0, height, 0.2));
-            Shadow::new(&crate::Capsule::new(ends.0, ends.1, 0.04, crate::Shade::Left), DVec3::ZERO)
-        };
-        let dark = |height: f64| total(&[&foot(height).unwrap()], Vec2::new(0.0, 0.1));
-        assert!(dark(0.04) > 1.5 * dark(0.09), "{} {}", dark(0.04), dark(0.09));
     }
 }

@@ -2,9 +2,9 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::body::Solid;
 use crate::canvas::Spot;
-use crate::{Capsule, Figure, View};
+use crate::solid::{Form, Solid};
+use crate::{Capsule, Cuboid, Figure, View};
 
 /// The view of a panel: the point on the floor that it follows, and the scale.
 #[derive(Clone, Copy)]
@@ -31,14 +31,32 @@ impl Lens {
         (seen.x, -seen.y)
     }
 
-    pub fn solids(&self, figure: &Figure) -> Vec<Solid> {
-        let solid = |capsule: Capsule| Solid {
-            from: self.panel_from_world(capsule.from),
-            to: self.panel_from_world(capsule.to),
-            radius_from: (capsule.radius_from_m * self.scale) as f32,
-            radius_to: (capsule.radius_to_m * self.scale) as f32,
+    /// A direction of the world in panel axes.
+    fn direction(&self, world: DVec3) -> Vec3 {
+        self.view.view_from_world(world).as_vec3()
+    }
+
+    pub fn solids<'a>(&self, figures: impl IntoIterator<Item = &'a Figure>) -> Vec<Solid> {
+        let capsule = |capsule: Capsule| Solid {
+            form: Form::Capsule {
+                from: self.panel_from_world(capsule.from),
+                to: self.panel_from_world(capsule.to),
+                radius_from: (capsule.radius_from_m * self.scale) as f32,
+                radius_to: (capsule.radius_to_m * self.scale) as f32,
+            },
             shade: capsule.shade,
         };
-        figure.drawable().map(solid).collect()
+        let cuboid = |cuboid: Cuboid| Solid {
+            form: Form::Cuboid {
+                centre: self.panel_from_world(cuboid.centre),
+                axes: DVec3::AXES.map(|axis| self.direction(cuboid.rotation * axis)),
+                half: (cuboid.size_m * (0.5 * self.scale)).as_vec3(),
+            },
+            shade: cuboid.shade,
+        };
+        let all = |figure: &'a Figure| {
+            figure.drawable().map(capsule).chain(figure.drawable_boxes().map(cuboid)).collect::<Vec<_>>()
+        };
+        figures.into_iter().flat_map(all).collect()
     }
 }

@@ -1,8 +1,8 @@
-//! Pictures of motion: filmstrips of bodies and plots over time, drawn without a GPU.
+//! Pictures of motion: filmstrips of bodies, plots over time and movies, drawn without a GPU.
 //!
 //! A [`Filmstrip`] shows moments of a motion side by side: the body as shaded capsules, its left blue and its right
 //! orange, a reference motion as a pale ghost behind it, forces as arrows, over a floor fixed to the world. A [`Plot`]
-//! shows values over time. A [`Sheet`] stacks both into one picture.
+//! shows values over time. A [`Sheet`] stacks both into one picture. A [`Movie`] shows the same bodies in motion, as GIF or APNG.
 //!
 //! How to read a filmstrip: all panels have one scale and follow the body; the tiles and the ruler below stay with the
 //! world, half a metre apart. A sliding foot moves relative to them during contact; a floating foot is apart from its
@@ -26,6 +26,7 @@
 //!
 //! What it does not do: methods, formats, skeletons. Plain shapes in metres come in, pixels go out.
 
+mod animation;
 mod arrow;
 mod body;
 mod camera;
@@ -34,14 +35,22 @@ mod chart;
 mod colour;
 mod cone;
 mod error;
+mod extent;
 mod figure;
 mod filmstrip;
 mod floor;
+mod hit;
 mod image;
 mod lens;
 pub mod limits;
+mod movie;
+mod palette;
 mod plot;
+mod shadow;
 mod sheet;
+mod shot;
+mod slabs;
+mod solid;
 mod strip;
 mod text;
 mod ticks;
@@ -50,8 +59,10 @@ pub use arrow::Arrow;
 pub use camera::{Camera, View};
 pub use colour::{Colour, PALETTE};
 pub use error::Error;
-pub use figure::{Capsule, Figure, Shade};
+pub use figure::{Capsule, Cuboid, Figure, Shade};
 pub use filmstrip::{Filmstrip, Panel, Style};
+pub use hit::Hit;
 pub use image::Image;
+pub use movie::{Movie, MovieStyle};
 pub use plot::{Limit, Mark, Plot, Series};
 pub use sheet::{Piece, Sheet};

@@ -55,6 +55,7 @@ pub struct Limit {
 ///     title: "Deflection".to_owned(),
 ///     x_label: "time (s)".to_owned(),
 ///     y_label: "deflection (°)".to_owned(),
+///     unit: "°".to_owned(),
 ///     series: vec![Series::new("leftHand", wave.collect())],
 ///     marks: vec![Mark { from_secs: 0.5, to_secs: 0.6, label: "push".to_owned() }],
 ///     ..Plot::default()
@@ -70,6 +71,8 @@ pub struct Plot {
     pub x_label: String,
     /// Name and unit of the y axis; may be empty.
     pub y_label: String,
+    /// Unit of the y axis as it is written behind a number, such as "°" or " m/s"; may be empty.
+    pub unit: String,
     /// The lines, at most [`MAX_SERIES`](crate::limits::MAX_SERIES). The legend lists those with the larger peaks first.
     pub series: Vec<Series>,
     /// Shaded intervals.
@@ -88,6 +91,7 @@ impl Default for Plot {
             title: String::new(),
             x_label: String::new(),
             y_label: String::new(),
+            unit: String::new(),
             series: Vec::new(),
             marks: Vec::new(),
             limits: Vec::new(),

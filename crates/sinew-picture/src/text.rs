@@ -72,6 +72,18 @@ impl Type {
         PxScale::from(em_px * font.height_unscaled() / font.units_per_em().unwrap_or(1_000.0))
     }
 
+    /// The text in one line of a maximum width \[px\], or broken between words into two, the second truncated.
+    pub fn in_two_lines(self, text: &str, width: f32) -> (String, String) {
+        if self.width(text) <= width {
+            return (text.to_owned(), String::new());
+        }
+        let breaks = text.char_indices().filter(|(_, letter)| letter.is_whitespace()).map(|(at, _)| at);
+        match breaks.take(MAX_TEXT_CHARS).filter(|&at| self.width(&text[..at]) <= width).last() {
+            Some(at) if at > 0 => (text[..at].to_owned(), self.fit(text[at..].trim_start(), width)),
+            _ => (self.fit(text, width), String::new()),
+        }
+    }
+
     /// The text, truncated with an ellipsis to a maximum width \[px\].
     pub fn fit(self, text: &str, width: f32) -> String {
         let short = text.chars().count() <= MAX_TEXT_CHARS;
@@ -109,6 +121,42 @@ impl Canvas {
             self.write((spot.0 + right * reach, spot.1 + down * reach), anchor, rim, text, false);
         }
         self.write(spot, anchor, font, text, false)
+    }
+
+    /// Writes a text with a rim about a spot, within the canvas; upwards (`above`) or downwards of it where another label is in
+    /// the way. `taken` holds the boxes of those (left, top, right, bottom), and gets this one's.
+    #[allow(clippy::too_many_arguments, reason = "place and style of one text")]
+    pub fn label(
+        &mut self,
+        spot: Spot,
+        above: bool,
+        font: Type,
+        rim: Colour,
+        text: &str,
+        unit: f32,
+        taken: &mut Vec<[f32; 4]>,
+    ) {
+        let edge = 7.0 * unit;
+        let text = font.fit(text, self.width() - 2.0 * edge);
+        if text.is_empty() {
+            return;
+        }
+        let half = font.width(&text) / 2.0;
+        let x = spot.0.max(half + edge).min(self.width() - half - edge);
+        let line = font.em_px * 1.15;
+        let mut y = spot.1;
+        for _ in 0..12 {
+            let own = [x - half, y - line * 0.75, x + half, y + line * 0.25];
+            let clear =
+                |other: &[f32; 4]| own[0] > other[2] || own[2] < other[0] || own[1] > other[3] || own[3] < other[1];
+            if taken.iter().all(clear) {
+                break;
+            }
+            y += if above { -line } else { line };
+        }
+        y = y.max(line).min(self.height() - 4.0 * unit);
+        taken.push([x - half, y - line * 0.75, x + half, y + line * 0.25]);
+        self.text_with_rim((x, y), Anchor::Middle, font, rim, &text);
     }
 
     fn write(&mut self, spot: Spot, anchor: Anchor, font: Type, text: &str, upwards: bool) -> f32 {

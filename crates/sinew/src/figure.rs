@@ -16,7 +16,7 @@ pub fn figure(shapes: &[(Node, usize, Shape)], world: &[Transform]) -> Figure {
         };
         Capsule::tapered(place(shape.from), place(shape.to), shape.from_radius_m, shape.to_radius_m, shade)
     });
-    Figure { capsules: capsules.collect() }
+    Figure::new(capsules.collect())
 }
 
 /// The same for a glTF file.

@@ -6,4 +6,6 @@ mod command_inspect;
 mod command_perform;
 mod command_reach;
 mod command_respond;
+mod command_run;
+mod command_video;
 mod without_parts;

@@ -2,9 +2,10 @@
 
 use crate::common;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use sinew_picture::{
-    Arrow, Camera, Capsule, Colour, Figure, Filmstrip, Limit, Mark, Panel, Plot, Series, Shade, Sheet, Style, limits,
+    Arrow, Camera, Capsule, Colour, Cuboid, Figure, Filmstrip, Hit, Limit, Mark, Panel, Plot, Series, Shade, Sheet,
+    Style, limits,
 };
 
 const ODD: [f64; 10] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN, 1e-310, -0.0, 0.0, 1e30, -1e6];
@@ -47,6 +48,14 @@ fn odd_numbers_anywhere_in_a_filmstrip_do_no_harm() {
         figure.capsules.push(Capsule::tapered(point, DVec3::Y, 0.1, 0.2, Shade::Custom(Colour::hex(0x123456))));
         figure.capsules.push(Capsule::tapered(DVec3::ZERO, DVec3::Y, odd, 0.2, Shade::Object));
         figure.capsules.push(Capsule::tapered(DVec3::ZERO, DVec3::splat(odd), 1e-300, 1e-9, Shade::Object));
+        let boxes = [(point, DVec3::ONE, 1.0), (DVec3::Y, point, 1.0), (DVec3::Y, DVec3::splat(odd), odd)]
+            .into_iter()
+            .map(|(centre, size_m, turn)| Cuboid {
+                centre,
+                rotation: DQuat::from_xyzw(0.0, turn, 0.0, 1.0),
+                size_m,
+                shade: Shade::Object,
+            });
         let arrow = |at, force_n| Arrow { at, force_n, label: String::new() };
         let panel = Panel {
             time_secs: odd,
@@ -55,6 +64,8 @@ fn odd_numbers_anywhere_in_a_filmstrip_do_no_harm() {
             arrows: vec![arrow(point, DVec3::X), arrow(DVec3::Y, point), arrow(DVec3::Y, DVec3::splat(odd))],
             follow: Some(point),
             caption: format!("{odd}"),
+            objects: Figure { capsules: Vec::new(), boxes: boxes.collect() },
+            hits: vec![Hit { at: point, label: format!("{odd}") }],
         };
         let mut strip = small(vec![common::panel(0.9), panel]);
         assert!(strip.draw().is_ok(), "{odd}");

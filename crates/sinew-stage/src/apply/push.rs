@@ -11,6 +11,19 @@ use sinew_control::{OrderError, OrderErrorKind};
 use sinew_world::{CharacterId, Entity, PropId};
 
 impl Stage {
+    /// Pushes that act in the present step: on what, where \[m\] and with which force \[N\], both in world axes.
+    pub fn pushes(&self) -> impl Iterator<Item = (Entity, DVec3, DVec3)> {
+        let frame = self.world.frame();
+        self.timed_effects.pushes.iter().filter_map(move |push| {
+            let body = match push.on {
+                Entity::Floor => return None,
+                Entity::Prop(prop) => frame.prop(prop)?,
+                Entity::Part(character, node) => frame.character(character)?.part(node),
+            };
+            Some((push.on, push.at.map_or(body.centre, |at| body.point(at)), push.force))
+        })
+    }
+
     pub(super) fn apply_push(&mut self, id: CharacterId, order: &CharacterOrder) -> Outcome {
         let CharacterOrder::Push { node, force, facing, at, for_secs } = order else { return Ok(None) };
         let mut force = *force;

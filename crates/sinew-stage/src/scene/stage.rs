@@ -53,9 +53,10 @@ pub struct FloorSurface {
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraSpec {
-    /// Azimuth of the camera \[degrees about +Y from +Z to +X\]: 0 looks at the faces of characters that face +Z.
-    pub from_deg: f64,
-    /// When pictures are taken \[s\]; evenly spread over the run when left out.
+    /// Azimuth of the camera \[degrees about +Y from +Z to +X\]: 0 looks at the faces of characters that face +Z. Left out,
+    /// the camera looks across the strongest push or hit, or else across the way that characters go.
+    pub from_deg: Option<f64>,
+    /// When pictures are taken \[s\]; when most happens if left out.
     pub times_secs: Vec<f64>,
 }
 
@@ -82,7 +83,7 @@ impl Default for FloorSurface {
 
 impl Default for CameraSpec {
     fn default() -> CameraSpec {
-        CameraSpec { from_deg: 60.0, times_secs: Vec::new() }
+        CameraSpec { from_deg: None, times_secs: Vec::new() }
     }
 }
 
@@ -139,7 +140,9 @@ impl StageSpec {
 
 impl CameraSpec {
     pub(super) fn check(&self) -> Result<(), Fault> {
-        number(&["camera", "from_deg"], self.from_deg, -360.0..=360.0, "degrees are expected")?;
+        if let Some(from_deg) = self.from_deg {
+            number(&["camera", "from_deg"], from_deg, -360.0..=360.0, "degrees are expected")?;
+        }
         count(&["camera", "times_secs"], self.times_secs.len(), 100)?;
         self.times_secs
             .iter()

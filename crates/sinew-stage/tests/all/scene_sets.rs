@@ -29,7 +29,7 @@ fn a_value_is_changed_added_or_replaced_by_its_path() {
     assert_eq!((left.mass_kg, left.position_m), (70.5, [1.0, 2.0, 3.0]));
     assert_eq!(left.joints["leftFoot"].frequency_hz, Some(4.0));
     assert_eq!((scene.characters["right"].tracker, left.pose.as_deref()), (TrackerKind::Kinematic, Some("up")));
-    assert_eq!((scene.camera.from_deg, scene.at[1].at_secs), (10.0, 3.0));
+    assert_eq!((scene.camera.from_deg, scene.at[1].at_secs), (Some(10.0), 3.0));
     assert_eq!(scene.sets().len(), 7);
 }
 

@@ -2,7 +2,9 @@
 //!
 //! A job is a plain struct with a [`Default`]; the function of the same name runs it.
 
+mod camera;
 pub mod inspect;
+mod moments;
 pub mod reach;
 pub mod respond;
 pub mod run;

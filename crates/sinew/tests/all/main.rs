@@ -7,6 +7,7 @@
 
 mod claims_input;
 mod golden;
+mod pictures;
 mod ran;
 mod scene_balance;
 mod scene_reach;

@@ -79,5 +79,6 @@ pub fn panel(time_secs: f64) -> Panel {
         },
         follow: Some(hips(time_secs, bent)),
         caption: if pushed { "push on the chest".to_owned() } else { String::new() },
+        ..Panel::default()
     }
 }

@@ -10,7 +10,7 @@ use sinew_reach::{
     Goal, MovingGoal, MovingGoalError, Obstacle, ReachMeter, ReachPlayback, Reacher, Start, Style, StyleError,
     Waypoint, standing,
 };
-use sinew_stage::{RecordedCharacter, RecordedProp, Recording};
+use sinew_stage::{OwnRig, RecordedCharacter, RecordedProp, Recording};
 use sinew_world::{CharacterId, Form, PropId, Solid, hips_over_soles_m};
 
 /// Which hand reaches.
@@ -78,6 +78,28 @@ pub struct Reached {
     pub recording: Recording,
     /// Where the character faced at the start \[rad\].
     pub facing_rad: f64,
+    /// Frames until the clip, where there is one, goes on.
+    reach_frames: usize,
+}
+
+impl Reached {
+    /// The skeleton of the clip that was left, to give the motion back on: [`OwnRig::clip`] of the recording's poses. What the body does
+    /// not tell, such as fingers, stays as it was when the clip was left, until that goes on.
+    ///
+    /// # Errors
+    /// When the clip holds no body.
+    pub fn own_rig(&self, job: &ReachJob, file: &MotionFile) -> Result<OwnRig, ReachError> {
+        let reduction = Reduction::new(&file.clip, file.body_parts()?, file.stature_m, job.person)?;
+        let base = resample(&file.clip, HZ);
+        let last = file.clip.frames().saturating_sub(1);
+        let row = |frame: usize| ((frame as f64 * file.clip.fps() / HZ).round() as usize).min(last);
+        let rows = (0..base.frames()).map(row).collect();
+        let left = (job.from_secs * HZ).round() as usize;
+        let frame =
+            |index: usize| (left + index.saturating_sub(self.reach_frames)).min(base.frames().saturating_sub(1));
+        let frames = (0..self.recording.frames).map(frame).collect();
+        Ok(OwnRig::of_file(file.clone(), reduction, base, rows, frames))
+    }
 }
 
 /// Why a reach cannot be made.
@@ -187,8 +209,10 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
         }
     }
     let report = ReachReport::of(&meter, playback.reacher(), 0.0, playback.reacher().done_secs());
+    let mut reach_frames = poses.len();
     if job.back {
         poses.extend(playback.stand_up());
+        reach_frames = poses.len();
         poses.extend(afterwards(&body, &playback, clip.as_mut()));
     }
     let frames = poses.len();
@@ -224,6 +248,7 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
         report,
         recording: Recording { motion_hz: HZ, frames, characters: vec![character], props },
         facing_rad,
+        reach_frames,
     })
 }
 

@@ -4,6 +4,6 @@ mod draw;
 mod job;
 mod report;
 
-pub use draw::{contact_sheet, sheet};
+pub use draw::{contact_sheet, movie, sheet};
 pub use job::{Ball, Hand, MovingPoint, ReachError, ReachJob, Reached, reach};
 pub use report::{ReachReport, StepReport};

@@ -94,7 +94,13 @@ impl ReachReport {
             self.twist_deg,
             self.swing_deg,
             self.squat_m,
-            if steps.is_empty() { "no step".to_owned() } else { steps.join(", ") }
+            match steps.len() {
+                0 => "no step".to_owned(),
+                1..=3 => steps.join(", "),
+                // The report has each.
+                many =>
+                    format!("{many} steps, {:.2} m in all", self.steps.iter().map(|step| step.length_m).sum::<f64>()),
+            }
         )
     }
 }

@@ -3,9 +3,10 @@
 mod answer;
 mod draw;
 mod job;
+mod panels;
 mod report;
 
 pub use answer::Answer;
-pub use draw::sheet;
+pub use draw::{movie, sheet};
 pub use job::{RespondError, RespondJob, respond};
 pub use report::{PushReport, RespondReport};

@@ -1,93 +1,37 @@
-//! A recording as a filmstrip.
+//! A run as a filmstrip and as a movie.
 
-use super::export::capsules;
-use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Node, Pose};
-use sinew_picture::{Camera, Capsule, Colour, Figure, Filmstrip, Panel, Shade, Sheet, Style};
-use sinew_stage::{RecordedCharacter, Recording, Scene};
-use sinew_world::{PartShape, part_solid};
+use super::Footage;
+use crate::jobs::moments::{moments, without_repeats};
+use sinew_picture::{Filmstrip, Movie, Sheet, Style};
 
-/// Panels of a strip when the scene does not say which.
+/// Panels of a strip when the scene does not say when.
 const PANELS: usize = 12;
 
-/// Props farther than this from every character are left out, or a ball that rolls away would make all else small \[m\].
-const NEAR_M: f64 = 3.0;
-
-/// What a character looks like in a pose: its collision shapes. With a colour the trunk has it.
-pub fn figure(body: &Body, pose: &Pose, rgb: Option<[u8; 3]>) -> Vec<Capsule> {
-    let positions = pose.positions(body);
-    let mut all = Vec::new();
-    for node in Node::ALL {
-        let shade = match node.part().side() {
-            Some(sinew_motion::Side::Left) => Shade::Left,
-            Some(sinew_motion::Side::Right) => Shade::Right,
-            None => rgb.map_or(Shade::Midline, custom),
-        };
-        let (position, rotation) = (positions[node.index()], pose.world[node.index()]);
-        let link = body.link(node).shape;
-        let feet = matches!(node, Node::LeftFoot | Node::RightFoot);
-        if feet {
-            for (from, to, radius) in capsules(&part_solid(body, node)) {
-                all.push(Capsule::new(position + rotation * from, position + rotation * to, radius, shade));
-            }
-        } else {
-            all.push(Capsule::tapered(
-                position + rotation * link.from,
-                position + rotation * link.to,
-                link.from_radius_m,
-                link.to_radius_m,
-                shade,
-            ));
-        }
-    }
-    all
-}
-
-/// Shapes that parts have in place of their own, such as skis.
-fn worn(character: &RecordedCharacter, pose: &Pose, frame: usize) -> Vec<Capsule> {
-    let positions = pose.positions(&character.body);
-    let mut all = Vec::new();
-    for node in Node::ALL {
-        let PartShape::Other(solid) = character.shape(node, frame) else { continue };
-        let (position, rotation) = (positions[node.index()], pose.world[node.index()]);
-        for (from, to, radius) in capsules(solid) {
-            all.push(Capsule::new(position + rotation * from, position + rotation * to, radius, Shade::Object));
-        }
-    }
-    all
-}
-
-/// A scene's colour in a picture.
-pub(crate) fn custom([red, green, blue]: [u8; 3]) -> Shade {
-    Shade::Custom(Colour::hex(u32::from(red) << 16 | u32::from(green) << 8 | u32::from(blue)))
-}
-
-/// From a point to a shape's axis.
-fn distance_m(point: DVec3, shape: &Capsule) -> f64 {
-    let along = shape.to - shape.from;
-    let share = (point - shape.from).dot(along) / along.length_squared().max(1e-12);
-    point.distance(shape.from + along * share.clamp(0.0, 1.0))
-}
-
-/// The strip of a run.
-pub fn sheet(recording: &Recording, scene: &Scene, title: &str, subtitle: &str) -> Sheet {
+/// The strip of a run: pictures of the moments that the scene states, or of those in which most happens.
+pub fn sheet(footage: &Footage, title: &str, subtitle: &str) -> Sheet {
+    let recording = footage.recording;
     let last = recording.frames.saturating_sub(1);
-    let times = &scene.camera.times_secs;
-    let frames: Vec<usize> = if times.is_empty() {
-        (0..PANELS).map(|index| last * index / (PANELS - 1)).collect()
+    let change_m = footage.change_m();
+    let stated = &footage.scene.camera.times_secs;
+    let frames = if stated.is_empty() {
+        moments(&change_m, &footage.happens(), PANELS)
     } else {
-        times.iter().map(|secs| ((secs * recording.motion_hz).round() as usize).min(last)).collect()
+        let frame = |secs: &f64| ((secs * recording.motion_hz).round() as usize).min(last);
+        without_repeats(&stated.iter().map(frame).collect::<Vec<_>>(), &change_m)
     };
-    let panels = frames.into_iter().map(|frame| panel(recording, frame)).collect();
+    let followed = footage.followed();
+    let before = std::iter::once(None).chain(frames.iter().copied().map(Some));
+    let panels = frames.iter().zip(before).map(|(&frame, before)| footage.panel(frame as f64, before, &followed));
     let strip = Filmstrip {
-        panels,
-        camera: Camera { azimuth_rad: scene.camera.from_deg.to_radians(), elevation_rad: 0.2 },
-        style: Style { columns: 6, ..Style::default() },
+        panels: panels.collect(),
+        camera: footage.camera(),
+        style: Style { columns: 6, body_height_m: tallest_m(footage), ..Style::default() },
         ..Filmstrip::default()
     };
+    let still = if frames.len() == 1 && last > 0 { "; nothing moves after the first picture" } else { "" };
     Sheet {
         title: title.to_owned(),
-        subtitle: subtitle.to_owned(),
+        subtitle: format!("{subtitle}{still}"),
         pieces: vec![strip.into()],
         footer: format!(
             "{} characters, {} props; motion at {:.0} Hz",
@@ -99,29 +43,24 @@ pub fn sheet(recording: &Recording, scene: &Scene, title: &str, subtitle: &str) 
     }
 }
 
-fn panel(recording: &Recording, frame: usize) -> Panel {
-    let mut all = Vec::new();
-    let mut middle = DVec3::ZERO;
-    for character in &recording.characters {
-        let pose = &character.poses[frame];
-        middle += pose.hips_position / recording.characters.len() as f64;
-        all.extend(figure(&character.body, pose, character.rgb));
-        all.extend(worn(character, pose, frame));
-    }
-    let is_near = |shape: &Capsule| {
-        let near = |character: &RecordedCharacter| distance_m(character.poses[frame].hips_position, shape) < NEAR_M;
-        recording.characters.is_empty() || recording.characters.iter().any(near)
-    };
-    for prop in recording.props.iter().filter(|prop| !prop.is_sensor) {
-        let (position, rotation): (DVec3, DQuat) = prop.places[frame];
-        let shade = prop.rgb.map_or(Shade::Object, custom);
-        let placed =
-            |(from, to, radius)| Capsule::new(position + rotation * from, position + rotation * to, radius, shade);
-        let shapes: Vec<Capsule> = capsules(&prop.solid).into_iter().map(placed).collect();
-        if shapes.iter().any(is_near) {
-            all.extend(shapes);
-        }
-    }
-    let follow = (!recording.characters.is_empty()).then_some(middle);
-    Panel { time_secs: recording.time_secs(frame), figure: Figure::new(all), follow, ..Panel::default() }
+/// The run as moving pictures, in real time.
+pub fn movie(footage: &Footage, title: &str) -> Movie {
+    let recording = footage.recording;
+    let per_frame = recording.motion_hz / f64::from(Movie::FRAMES_PER_SEC);
+    let secs = recording.time_secs(recording.frames.saturating_sub(1));
+    let followed = footage.followed();
+    let captions = (CAPTION_SECS * recording.motion_hz) as usize;
+    let panels = (0..Movie::frames_in(secs)).map(|index| {
+        let at = index as f64 * per_frame;
+        footage.panel(at, (at as usize).checked_sub(captions), &followed)
+    });
+    Movie { title: title.to_owned(), panels: panels.collect(), camera: footage.camera(), ..Movie::default() }
+}
+
+/// How long an event stays under the headline \[s\].
+const CAPTION_SECS: f64 = 0.8;
+
+fn tallest_m(footage: &Footage) -> f64 {
+    let heights = footage.recording.characters.iter().map(|character| character.body.stature_m());
+    heights.fold(0.0, f64::max).max(0.5)
 }

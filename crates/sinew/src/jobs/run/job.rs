@@ -1,5 +1,6 @@
 //! From a scene or a take to what it showed.
 
+use super::marks::Marks;
 use super::report::RunReport;
 use sinew_script::ScriptHost;
 use sinew_stage::{Observer, Recording, Runner, Scene, SceneError, Stage, StageError, Take};
@@ -26,6 +27,8 @@ pub struct Ran {
     pub report: RunReport,
     /// What was seen.
     pub recording: Recording,
+    /// What happened, for its pictures.
+    pub marks: Marks,
     /// All that is needed to see it again.
     pub take: Take,
 }
@@ -151,10 +154,12 @@ fn play(runner: Runner, steps: u64, observers: &mut [&mut dyn Observer]) -> Ran 
     let mut runner = runner.with_motion().with_take();
     let mut report = RunReport::of(runner.stage());
     let mut all: Vec<&mut dyn Observer> = observers.iter_mut().map(|one| &mut **one as &mut dyn Observer).collect();
-    all.push(&mut report);
+    let mut marks = Marks::of(runner.stage());
+    all.extend([&mut report as &mut dyn Observer, &mut marks]);
     runner.run(steps, &mut all);
     report.finish(runner.stage());
+    marks.finish(runner.stage().events().list());
     let done = runner.finish();
     let take = done.take.unwrap_or_else(|| Take::of(done.stage.first_scene()));
-    Ran { report, recording: done.recording.unwrap_or_default(), take }
+    Ran { report, recording: done.recording.unwrap_or_default(), marks, take }
 }

@@ -1,8 +1,9 @@
 //! The report and recording of a client.
 
+use crate::jobs::run::Marks;
 use serde::Serialize;
 use sinew_live::session::{Client, ClientStats, ConnectionState, Role};
-use sinew_stage::{Recording, StageError};
+use sinew_stage::{Cast, Recording, StageError};
 use sinew_world::Frame;
 
 /// The report of `sinew join`.
@@ -44,6 +45,8 @@ impl JoinReport {
 /// The motion as a client sees it, for its own pictures and files, of an hour at most.
 pub struct View {
     recording: Recording,
+    marks: Marks,
+    cast: Cast,
     steps_per_frame: u64,
     first_step: Option<u64>,
 }
@@ -59,7 +62,8 @@ impl View {
     pub fn of(client: &Client) -> Result<View, StageError> {
         let scene = client.scene();
         let steps_per_frame = u64::from(scene.stage.steps_per_frame()).max(1);
-        Ok(View { recording: Recording::of_scene(scene)?, steps_per_frame, first_step: None })
+        let (marks, cast) = (Marks::of_scene(scene), Cast::of(scene));
+        Ok(View { recording: Recording::of_scene(scene)?, marks, cast, steps_per_frame, first_step: None })
     }
 
     /// Takes a frame down. Frames that never came are shown as the one after them.
@@ -71,11 +75,17 @@ impl View {
             && frame.props.len() >= self.recording.props.len();
         while is_whole && self.recording.frames as u64 <= place && self.recording.frames < MAX_FRAMES {
             self.recording.push_frame(frame);
+            self.marks.watch_frame(self.recording.frames - 1, frame, &self.cast);
         }
     }
 
     /// What was seen.
     pub fn recording(&self) -> &Recording {
         &self.recording
+    }
+
+    /// The impacts in it; pushes and events are not sent.
+    pub fn marks(&self) -> &Marks {
+        &self.marks
     }
 }

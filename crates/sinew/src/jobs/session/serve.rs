@@ -1,6 +1,6 @@
 //! Serves a scene in real time to clients.
 
-use crate::jobs::run::{RunError, RunReport};
+use crate::jobs::run::{Marks, RunError, RunReport};
 use serde::Serialize;
 use sinew_live::session::{AppliedCommand, Server, ServerCounts, SessionObserver, StageQueue};
 use sinew_script::ScriptHost;
@@ -26,6 +26,8 @@ pub struct Served {
     pub report: ServeReport,
     /// What was seen, if it was to be kept.
     pub recording: Option<Recording>,
+    /// What happened, for its pictures; empty unless the motion was to be kept.
+    pub marks: Marks,
     /// All that is needed to see it again, if it was to be kept.
     pub take: Option<Take>,
 }
@@ -89,8 +91,15 @@ pub fn serve(
     let mut session = SessionObserver::new(queue, runner.stage());
     let mut all: Vec<&mut dyn Observer> = observers.iter_mut().map(|one| &mut **one as &mut dyn Observer).collect();
     all.extend([&mut session as &mut dyn Observer, &mut report]);
+    let mut marks = Marks::of(runner.stage());
+    if job.keeps_motion {
+        all.push(&mut marks);
+    }
     runner.run(last, &mut all);
     report.finish(runner.stage());
+    if job.keeps_motion {
+        marks.finish(runner.stage().events().list());
+    }
     let done = runner.finish();
     let report = ServeReport {
         run: report,
@@ -99,5 +108,5 @@ pub fn serve(
         lapses: done.lapses,
         hashes: session.hashes().clone(),
     };
-    Ok(Served { report, recording: done.recording, take: done.take })
+    Ok(Served { report, recording: done.recording, marks, take: done.take })
 }
