@@ -18,6 +18,8 @@ use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 /// // Props and joints are the operator's, even when a command names an actor's own character beside one.
 /// let cut = Command::to("red", Action::Cut { joint: "rope".into() });
 /// assert!(permit(Role::Actor, &["red".into()], &cut).is_err());
+/// // Nobody edits the scene over the network.
+/// assert!(permit(Role::Operator, &[], &Command::stage(Action::Edit { text: "format = 1".into() })).is_err());
 /// ```
 ///
 /// # Errors
