@@ -50,7 +50,7 @@ pub struct FloorSurface {
 }
 
 /// When and from where pictures are taken.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraSpec {
     /// Azimuth of the camera \[degrees about +Y from +Z to +X\]: 0 looks at the faces of characters that face +Z. Left out,
@@ -78,12 +78,6 @@ impl Default for StageSpec {
 impl Default for FloorSurface {
     fn default() -> FloorSurface {
         FloorSurface { friction: Surface::FLOOR.friction, bounce: Surface::FLOOR.bounce }
-    }
-}
-
-impl Default for CameraSpec {
-    fn default() -> CameraSpec {
-        CameraSpec { from_deg: None, times_secs: Vec::new() }
     }
 }
 
