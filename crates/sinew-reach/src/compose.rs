@@ -1,11 +1,11 @@
 //! From the controls of one instant to a pose: trunk, arms and legs by closed form, the hips where the balance puts them.
 
-use crate::feet::Support;
 use crate::frame::Frame;
-use crate::head::look;
+use crate::head::{look, shared};
 use crate::heel::{Heel, raised};
 use crate::leg_place::Foot;
 use crate::spine::{root_shift, swing_shares, twist_shares};
+use crate::weight::Support;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, exp};
 
@@ -44,6 +44,8 @@ pub(crate) struct Now {
     pub feet: [Foot; 2],
     pub foot_yaw: [f64; 2],
     pub knee_turn: [f64; 2],
+    /// Decaying rest of the initial pose: turns of upper and lower leg about their own bones.
+    pub leg_turn: [[f64; 2]; 2],
     /// Support of flat feet, and of feet on their toes.
     pub support: [Support; 2],
     pub twist: f64,
@@ -51,14 +53,23 @@ pub(crate) struct Now {
     pub squat: f64,
     /// Heel rise of a body on its toes, including the lean before it \[rad\].
     pub tiptoe: f64,
+    /// How far the weight is over the toes \[1\]; `None` in plans, where heels and tiptoe say it.
+    pub onto_toes: Option<f64>,
+    /// Share of the legs' reserve that is kept \[1\]: its square is how far the stretched leg stays below its full length.
+    pub reserve: f64,
+    /// How far the body is carried by its own motion, in a walk \[1\], and the rise of each heel in it \[rad\].
+    pub walks: f64,
+    pub heel_off: [f64; 2],
     /// Blend of the heel rise that ankle flexion requires \[1\]: 0 in the initial pose of a reach.
     pub heels: f64,
     /// Decaying rest of the initial pose: hips' shift and rotation, then chest, neck, head.
     pub hips_shift: DVec3,
     pub hips_turn: DVec3,
     pub trunk: [DVec3; 3],
-    pub look_at: DVec3,
-    pub look: f64,
+    /// What the head faces, in plans; `None` when `head` says how it is turned.
+    pub look_at: Option<DVec3>,
+    /// Turn of the head relative to the chest.
+    pub head: DVec3,
     pub arms: [ArmNow; 2],
     /// Offset of the root ahead of the balance \[m\].
     pub lean: DVec3,
@@ -72,6 +83,8 @@ pub(crate) struct Composed {
     pub hands: [DVec3; 2],
     /// Distance from the shoulder joint to the hand's target \[1 of the arm's length\].
     pub stretch: [f64; 2],
+    /// How far the weight is over the toes \[1\].
+    pub onto_toes: f64,
     /// Shoulder joints \[m\].
     pub shoulders: [DVec3; 2],
 }
@@ -106,13 +119,15 @@ impl Frame {
         let chest_at = hips * offset(Node::Chest);
         let neck_at = chest_at + chest * offset(Node::Neck);
         let mut hips_at = self.led_hips(now);
-        let mut composed = Composed { pose, hands: [DVec3::ZERO; 2], stretch: [0.0; 2], shoulders: [DVec3::ZERO; 2] };
+        let mut composed =
+            Composed { pose, hands: [DVec3::ZERO; 2], stretch: [0.0; 2], onto_toes: 0.0, shoulders: [DVec3::ZERO; 2] };
         let mut arms = now.arms;
         for arm in &mut arms {
             arm.carried[1] = (self.hang(arm, chest, now.swing) * arm.carried[1]).normalize();
         }
         let carried = [0, 1].map(|side| self.carried(side, &arms[side]).unwrap_or_default());
-        let mut heels = [0, 1].map(|_| if self.has_heels { Heel::of(0.0, 0.0, now.tiptoe) } else { Heel::default() });
+        let flat = Heel::of(0.0, 0.0, now.tiptoe);
+        let mut heels = now.heel_off.map(|off| if self.has_heels { flat.and(off) } else { Heel::default() });
         let mut led = None;
         for round in 0..ROUNDS {
             let feet = [0, 1].map(|side| raised(now.feet[side], self.toes[side], heels[side].pitch_rad));
@@ -121,8 +136,8 @@ impl Frame {
             // Head and arms move rigidly with the trunk between iterations: the error of the centre of mass is a
             // millimetre or two.
             if round == 0 || round + 1 == ROUNDS {
-                let eye = chest.conjugate() * (now.look_at - hips_at - neck_at);
-                let (neck, head) = look(eye, now.look);
+                let faced = |at: DVec3| look(chest.conjugate() * (at - hips_at - neck_at));
+                let (neck, head) = shared(now.look_at.map_or(now.head, faced));
                 let neck = chest * (neck * exp(now.trunk[1]));
                 composed.pose.world[Node::Neck.index()] = neck.normalize();
                 composed.pose.world[Node::Head.index()] = (neck * (head * exp(now.trunk[2]))).normalize();
@@ -140,7 +155,9 @@ impl Frame {
                 // The centre of mass of the hips before balance, pulled into the support.
                 let centre = self.body.centre_of_mass(&composed.pose);
                 let led = *led.get_or_insert(centre);
-                let miss = over_support(now, led, 0.5 * (heels[0].forward + heels[1].forward)) - centre;
+                composed.onto_toes = now.onto_toes.unwrap_or(0.5 * (heels[0].forward + heels[1].forward));
+                let held = over_support(now, led, composed.onto_toes);
+                let miss = held + (led - held) * now.walks - centre;
                 hips_at += DVec3::new(miss.x, 0.0, miss.z) * GAIN;
             }
         }

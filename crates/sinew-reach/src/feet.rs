@@ -1,8 +1,9 @@
 //! The feet: planted or in a step, and the support that they give.
 
 use crate::minimum_jerk::{MinimumJerk, arc, eased};
+use crate::weight::{Support, legs_m};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Node, Sole};
+use sinew_body::humanoid::{Body, Node, Pose, Sole};
 use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer, snapshot};
 
 /// A foot flat on the floor.
@@ -27,23 +28,32 @@ pub struct Stride {
     pub for_secs: f64,
     /// Maximum height of the ankle during the swing \[m\].
     pub lift_m: f64,
+    /// How far the heel rises before the foot lifts off \[rad\].
+    pub heel_rad: f64,
+    /// How much lower the hips are in the middle of it, beside what the stances ask \[m\].
+    pub sinks_m: f64,
+    /// When the weight begins to move to the new stance, and when it is there \[s\]: in a walk the times of several strides overlap, so
+    /// that the hips do not stop between them.
+    pub bears_secs: (f64, f64),
 }
 
-/// Support of two planted feet: a disc for the centre of mass.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Support {
-    /// Its middle, on the floor \[m\].
-    pub centre: DVec3,
-    /// Position of the centre of mass at rest, a little behind the middle \[m\].
-    pub rest: DVec3,
-    /// Radius of the largest disc about the middle inside the soles' hull \[m\].
-    pub radius_m: f64,
-    /// Heading of the pelvis: the mean of the feet \[rad\].
-    pub yaw_rad: f64,
+impl Stride {
+    /// The middle of the swing \[s\].
+    pub(crate) fn middle_secs(&self) -> f64 {
+        self.start_secs + 0.5 * self.for_secs
+    }
+
+    /// When the foot lands \[s\].
+    pub fn lands_secs(&self) -> f64 {
+        self.start_secs + self.for_secs
+    }
 }
 
 /// Duration of the arm swing of a stride \[1 of the stride's time\]: forward until landing, then back.
 const LINGERS: f64 = 2.0;
+
+/// Time after the last landing in which the weight comes to rest \[1 of the stride's time\].
+const SETTLES: f64 = 0.3;
 
 /// Maximum number of strides planned ahead.
 pub const MAX_STRIDES: usize = 96;
@@ -51,22 +61,25 @@ pub const MAX_STRIDES: usize = 96;
 /// Both feet over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feet {
-    soles: [Sole; 2],
+    pub(crate) soles: [Sole; 2],
+    /// Length of a leg that is as straight as plans allow, and distance of the hip joints \[m\].
+    pub(crate) legs_m: (f64, f64),
+    /// From the hips to the centre of mass over the ground, standing \[m\].
+    pub(crate) rest_com: DVec3,
     /// Placements before the strides.
     pub(crate) planted: [Placement; 2],
-    strides: Vec<Stride>,
+    pub(crate) strides: Vec<Stride>,
     /// Support before the strides and after each, flat and on the toes.
-    stances: Vec<[Support; 2]>,
+    pub(crate) stances: Vec<[Support; 2]>,
     /// Decaying rest of the initial placement: shift \[m\] and rotation (world) of each foot.
     pub(crate) rests: [(MinimumJerk<DVec3>, MinimumJerk<DVec3>); 2],
-    linear: bool,
+    pub(crate) linear: bool,
     /// Strides that belong to the start and are not dropped on a new goal.
     closing: Option<Stride>,
 }
 
 snapshot!(Placement { ankle, yaw_rad });
-snapshot!(Stride { side, to, start_secs, for_secs, lift_m });
-snapshot!(Support { centre, rest, radius_m, yaw_rad });
+snapshot!(Stride { side, to, start_secs, for_secs, lift_m, heel_rad, sinks_m, bears_secs });
 
 /// What feet carry is found anew from where they stand.
 impl Snapshot for Feet {
@@ -96,6 +109,11 @@ impl Feet {
     pub fn new(body: &Body, planted: [Placement; 2], linear: bool) -> Feet {
         let mut feet = Feet {
             soles: [Node::LeftFoot, Node::RightFoot].map(|foot| Sole::of(body, foot)),
+            legs_m: legs_m(body),
+            rest_com: {
+                let centre = body.centre_of_mass(&Pose::STANDING);
+                DVec3::new(centre.x, 0.0, centre.z)
+            },
             planted,
             strides: Vec::with_capacity(MAX_STRIDES),
             stances: Vec::with_capacity(MAX_STRIDES + 1),
@@ -127,11 +145,23 @@ impl Feet {
         self.closing = self.strides.last().copied();
     }
 
-    /// Drops strides that have not begun.
+    /// Links the strides from an index on to a walk: the weight goes on from each to the next.
+    pub(crate) fn link(&mut self, from: usize) {
+        for index in from..self.strides.len() {
+            let begins =
+                if index == from { self.strides[index].start_secs } else { self.strides[index - 1].middle_secs() };
+            let stride = &self.strides[index];
+            let usual = stride.lands_secs() + SETTLES * stride.for_secs;
+            let ends = self.strides.get(index + 1).map_or(usual, Stride::middle_secs);
+            self.strides[index].bears_secs = (begins, ends);
+        }
+    }
+
+    /// Drops strides to which the weight does not yet move.
     pub(crate) fn stop(&mut self, secs: f64) {
         let before = self.strides.len();
         let closing = self.closing;
-        self.strides.retain(|stride| stride.start_secs <= secs || Some(*stride) == closing);
+        self.strides.retain(|stride| stride.bears_secs.0 <= secs || Some(*stride) == closing);
         if self.strides.len() < before {
             self.stand_anew();
         }
@@ -167,6 +197,11 @@ impl Feet {
     /// Landing time of the last stride \[s\]; `None` if both feet stand.
     pub fn lands_secs(&self) -> Option<f64> {
         self.strides.iter().map(|stride| stride.start_secs + stride.for_secs).reduce(f64::max)
+    }
+
+    /// Time at which the weight rests on the last stance \[s\]; `None` if it rests already.
+    pub fn rests_secs(&self) -> Option<f64> {
+        self.strides.iter().map(|stride| stride.bears_secs.1).reduce(f64::max)
     }
 
     /// Whether both feet stand at a time \[s\] and the rest of the initial placement has decayed.
@@ -212,70 +247,6 @@ impl Feet {
         }
     }
 
-    /// The support of a pair of planted feet.
-    pub fn support_of(&self, feet: &[Placement; 2]) -> Support {
-        self.bearing(feet, false)
-    }
-
-    /// The support flat, and on the toes.
-    pub(crate) fn supports_of(&self, feet: &[Placement; 2]) -> [Support; 2] {
-        [self.bearing(feet, false), self.bearing(feet, true)]
-    }
-
-    /// The support of whole soles, or from the balls forward.
-    fn bearing(&self, feet: &[Placement; 2], on_toes: bool) -> Support {
-        let soles = self.soles.map(|sole| Sole { heel_m: if on_toes { sole.ball_m() } else { sole.heel_m }, ..sole });
-        let middle = |side: usize, along: f64| {
-            let sole = &soles[side];
-            let place = &feet[side];
-            place.ankle + DQuat::from_rotation_y(place.yaw_rad) * DVec3::new(sole.middle_m, -sole.ankle_m, along)
-        };
-        let along = |side: usize, share: f64| {
-            let sole = &soles[side];
-            sole.heel_m + share * (sole.toes_m - sole.heel_m)
-        };
-        let mean = |share: f64| (middle(0, along(0, share)) + middle(1, along(1, share))) * 0.5;
-        let centre = mean(if on_toes { 0.5 } else { 0.42 });
-        let corners = [0, 1].map(|side| {
-            let place = &feet[side];
-            let turn = DQuat::from_rotation_y(place.yaw_rad);
-            soles[side].corners().map(|corner| place.ankle + turn * corner)
-        });
-        let yaw_rad = feet[0].yaw_rad + 0.5 * (feet[1].yaw_rad - feet[0].yaw_rad);
-        Support { centre, rest: mean(0.30), radius_m: inner_radius(&corners, centre).max(0.02), yaw_rad }
-    }
-
-    /// The support at a time \[s\], flat: interpolated from stance to stance during strides.
-    pub fn support(&self, secs: f64) -> Support {
-        self.supports(secs)[0]
-    }
-
-    /// The support at a time \[s\], flat and on the toes.
-    pub(crate) fn supports(&self, secs: f64) -> [Support; 2] {
-        let mut total = self.stances[0];
-        let mut stands = self.planted;
-        for (index, stride) in self.strides.iter().enumerate() {
-            let share = (secs - stride.start_secs) / stride.for_secs;
-            stands[stride.side] = stride.to;
-            if share <= 0.0 {
-                continue;
-            }
-            let go = if self.linear { share.min(1.0) } else { eased(share) };
-            for on in 0..2 {
-                let (now, next) = (&self.stances[index][on], &self.stances[index + 1][on]);
-                let total = &mut total[on];
-                // The weight shifts only partly over the standing foot: a step is a controlled fall.
-                let over = stands[1 - stride.side].ankle - self.stances[index][0].centre;
-                let sway = DVec3::new(over.x, 0.0, over.z) * (SWAY * arc(share.min(1.0)));
-                total.centre += (next.centre - now.centre) * go + sway;
-                total.rest += (next.rest - now.rest) * go + sway;
-                total.radius_m += (next.radius_m - now.radius_m) * go;
-                total.yaw_rad += (next.yaw_rad - now.yaw_rad) * go;
-            }
-        }
-        total
-    }
-
     /// Arm swing at a time \[s\], relative to that of a usual step: forward with the opposite leg, with its maximum
     /// when that foot lands \[1\].
     pub(crate) fn arm_swing(&self, side: usize, secs: f64, usual_step_m: f64) -> f64 {
@@ -294,20 +265,4 @@ impl Feet {
         }
         swing
     }
-}
-
-/// Share of the weight shift over the standing foot in a step \[1\].
-const SWAY: f64 = 0.35;
-
-/// Distance of a point inside the hull of the soles, on the floor \[m\].
-fn inner_radius(soles: &[[DVec3; 4]; 2], point: DVec3) -> f64 {
-    // The hull of two convex shapes: its support in every direction is the larger of theirs.
-    let mut least = f64::INFINITY;
-    for index in 0..48 {
-        let (sin, cos) = libm::sincos(f64::from(index) * (std::f64::consts::PI / 24.0));
-        let out = DVec3::new(sin, 0.0, cos);
-        let reach = soles.iter().flatten().map(|corner| (*corner - point).dot(out)).fold(f64::NEG_INFINITY, f64::max);
-        least = least.min(reach);
-    }
-    least
 }

@@ -12,8 +12,8 @@ pub(crate) struct Frame {
     /// The same without limits, for limbs whose swivel is chosen here.
     pub free: Body,
     pub values: Values,
-    /// Height of the hips above the ankles in relaxed standing \[m\].
-    pub stand_m: f64,
+    /// Height of the hips above the ankles, standing straight \[m\].
+    pub straight_m: f64,
     /// From the ankles' middle to the hips over the ground, standing \[m\].
     pub rest_com: DVec3,
     pub effector: [DVec3; 2],
@@ -65,7 +65,7 @@ impl Frame {
             free,
             highest_m,
             values,
-            stand_m: -ankles.y - (1.0 - STRETCHED) * values.leg_m - SOFT_M,
+            straight_m: -ankles.y,
             rest_com: DVec3::new(centre.x, 0.0, centre.z),
             effector: ARMS.map(|arm| body.link(arm[3]).centre),
             usual: [0.3, -0.3]

@@ -41,6 +41,11 @@ impl Heel {
         Heel { pitch_rad: crate::head::soft(pitch, 1.25 * MAX_RAD), forward: 1.0 - (1.0 - squats) * (1.0 - stretches) }
     }
 
+    /// The same in a walk, in which the heel rises by an angle more \[rad\].
+    pub fn and(self, heel_off_rad: f64) -> Heel {
+        Heel { pitch_rad: self.pitch_rad + heel_off_rad, ..self }
+    }
+
     /// The part of it that lifts the body \[rad\].
     pub fn tiptoe(tiptoe_rad: f64) -> f64 {
         ramp(tiptoe_rad - 0.7 * LEAN_FIRST_RAD, 0.6 * LEAN_FIRST_RAD)

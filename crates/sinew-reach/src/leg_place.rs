@@ -24,8 +24,13 @@ impl Frame {
     /// Wanted height, lowered to what the legs can reach \[m\].
     pub fn hips_height(&self, now: &Now, feet: &[Foot; 2], hips: DQuat, hips_at: DVec3) -> f64 {
         let risen = self.rises_m(Heel::tiptoe(now.tiptoe));
-        let wanted = now.support[0].centre.y + self.ankle_m + self.stand_m - now.squat + risen + now.hips_shift.y;
-        let longest = STRETCHED * self.values.leg_m;
+        // Near its full length a leg's knee turns as the square root of what it is shorter by.
+        let reserve = now.reserve * now.reserve;
+        let soft = SOFT_M * reserve;
+        let short = (1.0 - STRETCHED) * reserve * self.values.leg_m;
+        let standing = self.straight_m - short - soft - now.support[0].dip_m;
+        let wanted = now.support[0].centre.y + self.ankle_m + standing - now.squat + risen + now.hips_shift.y;
+        let longest = self.values.leg_m - short;
         let mut sum = 0.0;
         let least = [0, 1].map(|side| {
             let joint = hips * self.body.link(LEG_LIMBS[side].nodes()[0]).offset;
@@ -34,10 +39,13 @@ impl Frame {
             ankle.y + (longest * longest - away).max(0.01 * longest * longest).sqrt() - joint.y
         });
         let lowest = wanted.min(least[0]).min(least[1]);
-        for value in [wanted, least[0], least[1]] {
-            sum += libm::exp(-(value - lowest) / SOFT_M);
+        if soft < 1e-14 {
+            return lowest;
         }
-        lowest - SOFT_M * libm::log(sum)
+        for value in [wanted, least[0], least[1]] {
+            sum += libm::exp(-(value - lowest) / soft);
+        }
+        lowest - soft * libm::log(sum)
     }
 
     /// Rise of an ankle on its toes \[m\].
@@ -52,7 +60,7 @@ impl Frame {
         let (ankle, sole) = now.feet[side];
         let Some(leg) = self.bent(side, now, ankle, hips) else { return Heel::default() };
         let shank = sole.conjugate() * (leg.knee - leg.ankle);
-        Heel::of(libm::atan2(shank.z, shank.y), now.heels, now.tiptoe)
+        Heel::of(libm::atan2(shank.z, shank.y), now.heels * (1.0 - now.walks), now.tiptoe).and(now.heel_off[side])
     }
 
     /// A leg by the law of cosines, its knee over the toes. Unlike an arm it is exact up to its full length: the hips
@@ -62,8 +70,11 @@ impl Frame {
         pose.world[end.index()] = foot.1;
         let Some(leg) = self.bent(side, now, foot.0, hips) else { return };
         let (thigh, shank) = (self.body.link(lower).offset, self.body.link(end).offset);
-        pose.world[upper.index()] = along(leg.knee, leg.hinge) * along(thigh, DVec3::X).conjugate();
-        pose.world[lower.index()] = along(leg.ankle - leg.knee, leg.hinge) * along(shank, DVec3::X).conjugate();
+        pose.world[upper.index()] =
+            along(leg.knee, leg.hinge) * along(thigh, DVec3::X).conjugate() * exp(DVec3::Y * now.leg_turn[side][0]);
+        pose.world[lower.index()] = along(leg.ankle - leg.knee, leg.hinge)
+            * along(shank, DVec3::X).conjugate()
+            * exp(DVec3::Y * now.leg_turn[side][1]);
     }
 
     fn bent(&self, side: usize, now: &Now, ankle: DVec3, hips: (DVec3, DQuat)) -> Option<Bent> {

@@ -11,8 +11,9 @@
 //! | arm: the hand's path (EQ1 to 4), two-bone limb | `hand_path.rs`, `arm.rs`, `compose.rs` |
 //! | spine: twist (EQ5, EQ6), swing (EQ7), root (EQ8) | `spine.rs` |
 //! | head | `head.rs` |
-//! | legs: whether and how far to step (EQ9), strides | `legs.rs`, `walk.rs`, `feet.rs` |
-//! | scheduler: states 0 to 3 | `plan.rs`, `schedule.rs` |
+//! | legs: whether and how far to step (EQ9), strides | `legs.rs`, `walk.rs`, `feet.rs`, `weight.rs`, `sink.rs` |
+//! | scheduler: states 0 to 3 | `plan.rs`, `schedule.rs`, `timing.rs` |
+//! | what varies from seed to seed | `manner.rs` |
 //! | open values | `values.rs` |
 //! | the pose it begins in; goals; targets that move | `start.rs`, `reacher.rs`, `moving_goal.rs` |
 //! | from start to end frame by frame; what came of it | `playback.rs`, `meter.rs` |
@@ -48,6 +49,7 @@ mod head;
 mod heel;
 mod leg_place;
 mod legs;
+mod manner;
 mod meter;
 mod minimum_jerk;
 mod moving_goal;
@@ -60,13 +62,16 @@ mod reacher_snapshot;
 mod rng;
 mod route;
 mod schedule;
+mod sink;
 mod solve;
 mod spine;
 mod start;
+mod timing;
 mod values;
 mod walk;
+mod weight;
 
-pub use feet::{Feet, Placement, Stride, Support};
+pub use feet::{Feet, Placement, Stride};
 pub use hand_path::{HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S};
 pub use head::look;
 pub use legs::{
@@ -87,3 +92,4 @@ pub use spine::{
 pub use start::{Start, standing};
 pub use values::{Style, StyleError, Values};
 pub use walk::Step;
+pub use weight::Support;

@@ -96,6 +96,12 @@ impl<T: Value> MinimumJerk<T> {
         MinimumJerk { from_secs, for_secs, factors, goal, early: false }
     }
 
+    /// The same way from another value, begun with the same velocity.
+    pub(crate) fn begun_at(&self, value: T) -> MinimumJerk<T> {
+        let velocity = self.velocity(self.from_secs);
+        MinimumJerk::between(self.from_secs, self.for_secs, value, velocity, T::default(), self.goal)
+    }
+
     /// The goal.
     pub fn goal(&self) -> T {
         self.goal

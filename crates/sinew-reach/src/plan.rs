@@ -4,6 +4,7 @@ use crate::Rng;
 use crate::compose::ARMS;
 use crate::feet::Placement;
 use crate::legs::{StepChoice, StepKind, decide_step, ground_direction};
+use crate::manner::Manner;
 use crate::outcome::{Outcome, Reason};
 use crate::reacher::Reacher;
 use crate::solve::{Aim, EXACT_M, Judged, Task};
@@ -29,7 +30,10 @@ pub(crate) struct Decision {
     pub bow: [DVec3; 2],
     /// Distance that each hand moves relative to the body \[m\].
     pub ways_m: [f64; 2],
-    pub turns_head_rad: f64,
+    /// How far the weight is over the toes there \[1\].
+    pub onto_toes: f64,
+    /// Turn of the head relative to the chest at the end.
+    pub gaze: DVec3,
     /// `parent_from_node` of upper and lower arms there.
     pub arms: [[DQuat; 2]; 2],
     /// Final positions of the hands \[m\]: at their targets, or as near as they come.
@@ -43,6 +47,7 @@ impl Decision {
     pub fn outcome(&self, arrives_secs: f64, steps: &[Step]) -> Outcome {
         Outcome {
             reason: self.reason,
+            is_late: false,
             gap_m: self.gap_m,
             arrives_secs,
             hands: self.targets.map(|target| target.is_some()),
@@ -106,7 +111,8 @@ impl Reacher {
             aim: Aim::default(),
             bow: [DVec3::ZERO; 2],
             ways_m: [0.0; 2],
-            turns_head_rad: 0.0,
+            onto_toes: 0.0,
+            gaze: DVec3::ZERO,
             arms: [[DQuat::IDENTITY; 2]; 2],
             ends: targets.map(Option::unwrap_or_default),
             gap_m: 0.0,
@@ -125,7 +131,10 @@ impl Reacher {
         let choice = if again { None } else { decide_step(libm::hypot(d.x, d.z), rng, &self.frame.values) };
         let side = if count == 1 { reaching.clone().next() } else { None };
         let errand = Errand { targets, side, middle, d, foot_choice: rng.unit(), near_choice: rng.unit() };
-        let trial = self.best_trial(task, choice, &errand);
+        let mut trial = self.best_trial(task, choice, &errand);
+        if self.manner != Manner::PLAIN {
+            trial.task.swivelled(&mut trial.found);
+        }
         let (aim, judged) = &trial.found;
         let end = &judged.composed;
         let carried = Task { targets: [None; 2], ..trial.task }.composed(aim).hands;
@@ -133,13 +142,16 @@ impl Reacher {
             decision.ways_m[side] = targets[side].map_or(0.0, |target| (target - carried[side]).length());
             if !self.style.print {
                 let forward = end.pose.world[1] * DVec3::Z;
-                decision.bow[side] = self.bow_around(end.shoulders[side], carried[side], end.hands[side], forward);
+                let out = end.pose.world[1] * DVec3::X * if side == 0 { 1.0 } else { -1.0 };
+                let own = DVec3::Y * self.manner.bow[0] + out * self.manner.bow[1];
+                decision.bow[side] = self.bow_around(end.shoulders[side], carried[side], end.hands[side], forward)
+                    + own * self.frame.values.arm_m;
             }
         }
         decision.arms = ARMS.map(|[_, upper, lower, _]| [upper, lower].map(|node| end.pose.local(node)));
         decision.gap_m = judged.gap_m;
         decision.swing_rad = signed_swing(aim, d);
-        decision.turns_head_rad = head_turn(end);
+        (decision.gaze, decision.onto_toes) = (gaze_of(end), end.onto_toes);
         if judged.gap_m > REACHED_M {
             decision.ends = end.hands;
             decision.reason = Some(self.why(targets, end, self.style.print && choice.is_some()));
@@ -332,7 +344,8 @@ fn signed_swing(aim: &Aim, d: DVec3) -> f64 {
     aim.swing.length() * if towards < 0.0 { -1.0 } else { 1.0 }
 }
 
-fn head_turn(end: &crate::compose::Composed) -> f64 {
+/// Turn of the head relative to the chest.
+fn gaze_of(end: &crate::compose::Composed) -> DVec3 {
     use sinew_body::humanoid::{Node, log};
-    log(end.pose.local(Node::Neck)).length() + log(end.pose.local(Node::Head)).length()
+    log((end.pose.local(Node::Neck) * end.pose.local(Node::Head)).normalize())
 }

@@ -4,6 +4,7 @@ use crate::arm::Arm;
 use crate::compose::{ARMS, ArmNow, Composed, Now};
 use crate::feet::Feet;
 use crate::frame::Frame;
+use crate::manner::Manner;
 use crate::minimum_jerk::MinimumJerk;
 use crate::outcome::{Outcome, Reason};
 use crate::solve::Task;
@@ -44,6 +45,7 @@ pub struct Reacher {
     pub(crate) frame: Frame,
     pub(crate) style: Style,
     pub(crate) rng: Rng,
+    pub(crate) manner: Manner,
     pub(crate) now_secs: f64,
     pub(crate) feet: Feet,
     pub(crate) twist: MinimumJerk<f64>,
@@ -51,14 +53,18 @@ pub struct Reacher {
     pub(crate) squat: MinimumJerk<f64>,
     pub(crate) lean: MinimumJerk<DVec3>,
     pub(crate) tiptoe: MinimumJerk<f64>,
+    pub(crate) onto_toes: MinimumJerk<f64>,
+    pub(crate) reserve: MinimumJerk<f64>,
     pub(crate) heels: MinimumJerk<f64>,
+    /// How far the head has taken up the gaze \[1\].
     pub(crate) look: MinimumJerk<f64>,
-    /// Decaying rest of the previous gaze.
+    /// Turn of the head relative to the chest with which it faces the target.
     pub(crate) gaze: MinimumJerk<DVec3>,
     pub(crate) arms: [Arm; 2],
     pub(crate) hips: [MinimumJerk<DVec3>; 2],
     pub(crate) trunk: [MinimumJerk<DVec3>; 3],
     pub(crate) knees: [MinimumJerk<f64>; 2],
+    pub(crate) leg_turns: [[MinimumJerk<f64>; 2]; 2],
     pub(crate) steps: Vec<Step>,
     pub(crate) outcome: Outcome,
     pub(crate) goal: [Option<DVec3>; 2],
@@ -84,6 +90,7 @@ impl Reacher {
         let arms = [0, 1].map(|side| Arm::carried(side, &start.pose));
         let mut reacher = Reacher {
             rng: Rng::new(style.seed),
+            manner: if style.print { Manner::PLAIN } else { Manner::of(style.seed) },
             now_secs: 0.0,
             feet,
             twist: MinimumJerk::rest(0.0),
@@ -91,6 +98,8 @@ impl Reacher {
             squat: MinimumJerk::rest(0.0),
             lean: rest,
             tiptoe: MinimumJerk::rest(0.0),
+            onto_toes: MinimumJerk::rest(0.0),
+            reserve: MinimumJerk::rest(1.0),
             heels: MinimumJerk::rest(0.0),
             look: MinimumJerk::rest(0.0),
             gaze: rest,
@@ -98,6 +107,7 @@ impl Reacher {
             hips: [rest; 2],
             trunk: [rest; 3],
             knees: [MinimumJerk::rest(0.0); 2],
+            leg_turns: [[MinimumJerk::rest(0.0); 2]; 2],
             steps: Vec::new(),
             outcome: Outcome::default(),
             goal: [None; 2],
@@ -122,17 +132,22 @@ impl Reacher {
                 libm::atan2(toes.x, toes.z)
             }),
             knee_turn: self.knees.map(|turn| turn.at(secs)),
+            leg_turn: self.leg_turns.map(|both| both.map(|turn| turn.at(secs))),
             support: self.feet.supports(secs),
             twist: self.twist.at(secs),
             swing: self.swing.at(secs),
             squat: self.squat.at(secs),
             tiptoe: self.tiptoe.at(secs),
+            onto_toes: Some(self.onto_toes.at(secs)),
+            reserve: self.reserve.at(secs),
+            walks: self.feet.walks(secs),
+            heel_off: [0, 1].map(|side| self.feet.heel_off_rad(side, secs)),
             heels: self.heels.at(secs),
             hips_shift: self.hips[0].at(secs),
             hips_turn: self.hips[1].at(secs),
             trunk: self.trunk.map(|turn| turn.at(secs)),
-            look_at: self.looks_at(secs),
-            look: self.look.at(secs),
+            look_at: None,
+            head: self.gaze.at(secs) * self.look.at(secs),
             arms: [0, 1].map(|side| self.arm_at(side, secs)),
             lean: self.lean.at(secs),
         }
@@ -146,16 +161,6 @@ impl Reacher {
             arm.carried[1] = exp(DVec3::X * -swing) * arm.carried[1];
         }
         arm
-    }
-
-    fn looks_at(&self, secs: f64) -> DVec3 {
-        let target = |side: usize| self.arms[side].target;
-        let at = match self.goal {
-            [Some(_), Some(_)] => (target(0) + target(1)) * 0.5,
-            [Some(_), None] => target(0),
-            _ => target(1),
-        };
-        at + self.gaze.at(secs)
     }
 
     pub(crate) fn composed_at(&self, secs: f64) -> Composed {
@@ -201,7 +206,7 @@ impl Reacher {
 
     /// Time at which the plan is complete \[s\].
     pub fn done_secs(&self) -> f64 {
-        self.outcome.arrives_secs.max(self.feet.lands_secs().unwrap_or(0.0))
+        self.outcome.arrives_secs.max(self.feet.rests_secs().unwrap_or(0.0))
     }
 
     /// Placements of the feet at the end of the plan, and their support.
@@ -219,10 +224,10 @@ impl Reacher {
     pub fn reach(&mut self, goal: &Goal) -> &Outcome {
         let now = self.now_secs;
         let targets = [goal.left, goal.right].map(|target| target.filter(|target| target.is_finite()));
-        let looked = self.looks_at(now);
         self.set_out(targets, now);
         self.feet.stop(now);
-        self.steps.retain(|step| step.start_secs <= now);
+        let last = self.feet.lands_secs().unwrap_or(now);
+        self.steps.retain(|step| step.start_secs < last);
         let composed = self.composed_at(now);
         self.goal = targets;
         self.planned = targets;
@@ -236,7 +241,6 @@ impl Reacher {
             self.arms[side].target = decision.ends[side];
             self.arms[side].end = decision.arms[side];
         }
-        self.gaze.shift(looked - self.looks_at(now));
         self.schedule(&decision, &composed, now);
         if !self.style.print {
             self.mend_way(now);
@@ -281,7 +285,8 @@ impl Reacher {
         self.swing.go(now, DVec3::ZERO, 0.0, lasts);
         self.squat.go(now, 0.0, 0.0, lasts);
         self.lean.go(now, DVec3::ZERO, 0.0, lasts);
-        self.tiptoe.go(now, 0.0, 0.0, lasts);
+        self.tiptoe.go(now, 0.0, 0.0, 0.8 * lasts);
+        self.onto_toes.go(now, 0.0, 0.2 * lasts, 0.8 * lasts);
         self.look.go(now, 0.0, 0.0, lasts);
         for arm in &mut self.arms {
             arm.let_go(now, lasts);
@@ -292,7 +297,9 @@ impl Reacher {
     /// The task from the final placements of the feet, trunk straight, without the rest of the initial pose.
     pub(crate) fn task(&self, targets: [Option<DVec3>; 2]) -> Task<'_> {
         let mut now = self.now(self.now_secs);
-        (now.twist, now.swing, now.squat, now.lean, now.tiptoe) = (0.0, DVec3::ZERO, 0.0, DVec3::ZERO, 0.0);
+        (now.twist, now.swing, now.squat, now.lean) = (0.0, DVec3::ZERO, 0.0, DVec3::ZERO);
+        (now.tiptoe, now.onto_toes, now.reserve) = (0.0, None, 1.0);
+        now.leg_turn = [[0.0; 2]; 2];
         (now.hips_shift, now.hips_turn, now.trunk, now.knee_turn) =
             (DVec3::ZERO, DVec3::ZERO, [DVec3::ZERO; 3], [0.0; 2]);
         for side in 0..2 {
@@ -301,13 +308,18 @@ impl Reacher {
             arm.by_joints = 0.0;
             arm.carried = self.arms[side].carried.map(|joint| joint.goal());
         }
-        (now.look, now.heels) = (1.0, 1.0);
-        if let Some(target) = targets[1].or(targets[0]) {
-            now.look_at = target;
-        }
+        (now.heels, now.walks, now.heel_off) = (1.0, 0.0, [0.0; 2]);
+        now.look_at = middle_of(targets);
         let feet = self.feet.last();
-        Task { frame: &self.frame, style: &self.style, now, targets }.stance(&feet, self.feet.supports_of(&feet))
+        Task { frame: &self.frame, style: &self.style, manner: &self.manner, now, targets }
+            .stance(&feet, self.feet.supports_of(&feet))
     }
+}
+
+/// What is looked at: the middle of the targets \[m\].
+pub(crate) fn middle_of(targets: [Option<DVec3>; 2]) -> Option<DVec3> {
+    let count = targets.iter().flatten().count();
+    (count > 0).then(|| targets.iter().flatten().sum::<DVec3>() / count as f64)
 }
 
 /// Amplitude of the arm swing of a usual step \[rad\].

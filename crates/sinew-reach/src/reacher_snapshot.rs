@@ -10,6 +10,7 @@ impl Snapshot for Reacher {
             frame: _,
             style,
             rng,
+            manner,
             now_secs,
             feet,
             twist,
@@ -17,6 +18,8 @@ impl Snapshot for Reacher {
             squat,
             lean,
             tiptoe,
+            onto_toes,
+            reserve,
             heels,
             look,
             gaze,
@@ -24,6 +27,7 @@ impl Snapshot for Reacher {
             hips,
             trunk,
             knees,
+            leg_turns,
             steps,
             outcome,
             goal,
@@ -35,14 +39,16 @@ impl Snapshot for Reacher {
         } = self;
         style.save(to);
         (*rng, *now_secs).save(to);
+        manner.save(to);
         feet.save(to);
-        [*twist, *squat, *tiptoe, *heels].save(to);
+        [*twist, *squat, *tiptoe, *onto_toes, *reserve, *heels].save(to);
         [*swing, *lean, *gaze].save(to);
         look.save(to);
         arms.save(to);
         hips.save(to);
         trunk.save(to);
         knees.save(to);
+        leg_turns.save(to);
         steps.save(to);
         outcome.save(to);
         [*goal, *planned].save(to);
@@ -58,8 +64,16 @@ impl Snapshot for Reacher {
         self.set_style(&style).map_err(|_| SnapshotError::invalid("style of a reach"))?;
         self.rng.restore(from)?;
         self.now_secs.restore(from)?;
+        self.manner.restore(from)?;
         self.feet.restore(from)?;
-        for value in [&mut self.twist, &mut self.squat, &mut self.tiptoe, &mut self.heels] {
+        for value in [
+            &mut self.twist,
+            &mut self.squat,
+            &mut self.tiptoe,
+            &mut self.onto_toes,
+            &mut self.reserve,
+            &mut self.heels,
+        ] {
             value.restore(from)?;
         }
         for value in [&mut self.swing, &mut self.lean, &mut self.gaze] {
@@ -70,6 +84,7 @@ impl Snapshot for Reacher {
         self.hips.restore(from)?;
         self.trunk.restore(from)?;
         self.knees.restore(from)?;
+        self.leg_turns.restore(from)?;
         self.steps.restore(from)?;
         self.outcome.restore(from)?;
         self.goal.restore(from)?;

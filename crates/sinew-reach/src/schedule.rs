@@ -1,42 +1,32 @@
-//! The scheduler: when each controller begins and how long it takes.
+//! The scheduler: starts every controller at its time.
 
 use crate::compose::Composed;
 use crate::hand_path::{HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S};
+use crate::head::look;
 use crate::minimum_jerk::MinimumJerk;
 use crate::plan::Decision;
 use crate::reacher::Reacher;
-use glam::DVec3;
+use crate::timing::{LEANS_SECS, Timing};
+use sinew_body::humanoid::Node;
+
+/// Share of a squat's time in which the weight moves over the toes \[1\].
+const LEANS_FIRST: f64 = 0.75;
+
+/// Speed at which the head follows what it faces, beside that at which it turns there \[1\]: the two may add up.
+const HEAD_FOLLOWS: f64 = 0.65;
 
 impl Reacher {
     /// Starts every trajectory: the scheduler's states 0 to 3.
     pub(crate) fn schedule(&mut self, decision: &Decision, composed: &Composed, now: f64) {
-        let mut pace = 1.0;
-        if let Some(time) = self.style.time_secs {
-            let natural = self.timing(decision, composed, now, 1.0).end - now;
-            pace = time / natural.max(1e-3);
-        }
-        let timing = self.timing(decision, composed, now, pace);
+        let (mut timing, pace, is_late) = self.paced(decision, composed, now);
         // State 0: step.
-        if let Some(walk) = &decision.walk {
-            let values = self.frame.values;
-            crate::walk::walk(
-                &mut self.feet,
-                &walk.to,
-                walk.first,
-                walk.kind,
-                now.max(timing.free),
-                pace,
-                &values,
-                &mut self.steps,
-            );
-        }
+        self.set_off(&mut timing);
         let arms_secs = timing.end - timing.arm;
         let from = |at: f64| (at - now).max(0.0);
         let aim = &decision.aim;
         // State 1: arm, head and twist. By default the head turns first, as people's do.
-        let head = if self.style.print { timing.arm } else { now };
-        self.look.go(now, 1.0, from(head), timing.head);
-        self.gaze.go(now, DVec3::ZERO, 0.0, timing.head.max(0.3));
+        let waits = if self.style.print { from(timing.arm) } else { self.manner.gaze_secs };
+        self.turn_head(decision, composed, now, waits, &timing);
         self.twist.go(now, aim.twist, from(timing.arm), timing.twist);
         for side in 0..2 {
             let reaches = decision.targets[side].is_some();
@@ -60,22 +50,22 @@ impl Reacher {
         self.swing.go(now, aim.swing, from(timing.swing), timing.swings);
         self.squat.go(now, aim.squat, from(timing.swing), timing.swings);
         self.lean.go(now, aim.lean, from(timing.swing), timing.swings);
-        self.tiptoe.go(now, aim.tiptoe, from(timing.swing), timing.swings);
+        // The weight is over the toes before the heels rise.
+        let leans = (LEANS_SECS * pace).min(0.5 * timing.swings);
+        let forward = if aim.tiptoe > 0.0 { 2.0 * leans } else { LEANS_FIRST * timing.swings };
+        self.onto_toes.go(now, decision.onto_toes, from(timing.swing), forward);
+        self.tiptoe.go(now, aim.tiptoe, from(timing.swing) + leans, timing.swings - leans);
         // State 3: the arm has arrived.
         self.outcome = decision.outcome(timing.end, &self.steps);
+        self.outcome.is_late = is_late;
     }
 
     /// Redirects the body while the hand stays on its path or on its target.
     pub(crate) fn schedule_again(&mut self, decision: &Decision, now: f64) {
         let composed = self.composed_at(now);
-        let timing = self.timing(decision, &composed, now, 1.0);
-        let mut landed = now;
-        if let Some(walk) = &decision.walk {
-            let values = self.frame.values;
-            let from = now.max(timing.free);
-            crate::walk::walk(&mut self.feet, &walk.to, walk.first, walk.kind, from, 1.0, &values, &mut self.steps);
-            landed = self.feet.lands_secs().unwrap_or(now);
-        }
+        let mut timing = self.timing(decision, &composed, now, 1.0);
+        self.set_off(&mut timing);
+        let landed = timing.landed;
         let aim = &decision.aim;
         // A body that follows a moving target must be fast enough.
         let lasts = (timing.twist.max(timing.swings)).clamp(0.35, 0.6).max(landed - now);
@@ -84,6 +74,9 @@ impl Reacher {
         self.squat.go(now, aim.squat, 0.0, lasts);
         self.lean.go(now, aim.lean, 0.0, lasts);
         self.tiptoe.go(now, aim.tiptoe, 0.0, lasts);
+        self.onto_toes.go(now, decision.onto_toes, 0.0, lasts);
+        let turns = (decision.gaze - self.gaze.at(now)).length() / (HEAD_FOLLOWS * self.style.head_speed_rad_s);
+        self.gaze.go(now, decision.gaze, 0.0, lasts.max(turns));
         let mut arrives = now;
         for side in 0..2 {
             if decision.targets[side].is_none() {
@@ -100,60 +93,34 @@ impl Reacher {
         }
         let before = self.outcome.arrives_secs;
         let arrives = if arrives > now { arrives } else { before };
+        let is_late = self.outcome.is_late;
         self.outcome = decision.outcome(arrives.max(landed), &self.steps);
+        self.outcome.is_late = is_late;
     }
 
-    /// When each controller begins and how long it takes.
-    fn timing(&self, decision: &Decision, composed: &Composed, now: f64, pace: f64) -> Timing {
-        let values = &self.frame.values;
-        let free = self.feet.lands_secs().unwrap_or(now).max(now);
-        let (mut arm, mut landed) = (now, now);
-        if let Some(walk) = &decision.walk {
-            let mut feet = self.feet.clone();
-            let before = feet.strides().len();
-            crate::walk::walk(&mut feet, &walk.to, walk.first, walk.kind, free, pace, values, &mut Vec::new());
-            landed = feet.lands_secs().unwrap_or(free);
-            // Of several steps the last counts.
-            let strides = &feet.strides()[before..];
-            let last = strides.len().saturating_sub(2);
-            let from = strides.get(last).map_or(now, |stride| stride.start_secs);
-            arm = from + self.style.overlap_step * (landed - from);
+    /// Takes the strides of a plan over.
+    fn set_off(&mut self, timing: &mut Timing) {
+        if let Some((feet, steps)) = timing.walked.take() {
+            self.feet = feet;
+            self.steps.extend(steps);
         }
-        let turn = (decision.aim.twist - self.twist.at(now)).abs();
-        let twist = pace * (0.35 + turn / 1.6);
-        let swing = if turn > 0.01 { arm + self.style.overlap_twist * twist } else { arm };
-        let bend = (decision.aim.swing - self.swing.at(now)).length();
-        let sink = (decision.aim.squat - self.squat.at(now)).abs() / values.leg_m;
-        let rise = (decision.aim.tiptoe - self.tiptoe.at(now)).abs();
-        let swings = pace * (0.45 + (bend / 1.7).max(sink / 0.42).max(rise / 1.3));
-        let mut hands: f64 = 0.0;
-        for side in 0..2 {
-            if decision.targets[side].is_some() {
-                let way = decision.ways_m[side];
-                let printed = 2.0 * (composed.hands[side] - self.arms[side].target).length()
-                    / (self.style.speed_m_s.unwrap_or(PRINTED_SPEED_M_S) * (1.0 + PRINTED_RATIO));
-                hands = hands.max(if self.style.print { printed } else { values.hand_secs(way, &self.style) });
-            }
-        }
-        let settled = self.hips[0].end_secs();
-        let mut end = (arm + pace * hands).max(arm + twist).max(swing + swings).max(landed + 0.05);
-        if self.style.time_secs.is_none() {
-            end = end.max(settled);
-        }
-        let look = decision.turns_head_rad / self.style.head_speed_rad_s;
-        Timing { free, arm, swing, end, twist, swings, head: pace * look.max(0.25) }
     }
-}
 
-struct Timing {
-    /// Time from which new steps can begin \[s\].
-    free: f64,
-    /// Times at which arm and twist begin, the swing begins, and the hand arrives \[s\].
-    arm: f64,
-    swing: f64,
-    end: f64,
-    /// Durations of twist, swing and the head's rotation \[s\].
-    twist: f64,
-    swings: f64,
-    head: f64,
+    /// The head turns to where the target is seen now, `after_secs` from now, then keeps facing it while trunk and feet turn.
+    fn turn_head(&mut self, decision: &Decision, composed: &Composed, now: f64, after_secs: f64, timing: &Timing) {
+        let speed = self.style.head_speed_rad_s;
+        if self.look.at(now) == 0.0
+            && let Some(target) = crate::reacher::middle_of(decision.targets)
+        {
+            let pose = &composed.pose;
+            let neck = pose.positions(&self.frame.body)[Node::Neck.index()];
+            self.gaze = MinimumJerk::rest(look(pose.world[Node::Chest.index()].conjugate() * (target - neck)));
+        }
+        let seen = self.gaze.at(now);
+        let lasts = (seen.length().max(decision.gaze.length()) / speed).max(0.25);
+        self.look.go(now, 1.0, after_secs, lasts);
+        let turns = (decision.gaze - seen).length() / (HEAD_FOLLOWS * speed);
+        let begins = (timing.arm - now).max(after_secs + 0.6 * lasts);
+        self.gaze.go(now, decision.gaze, begins, (timing.end - now - begins).max(turns).max(0.25));
+    }
 }

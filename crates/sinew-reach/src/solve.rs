@@ -2,10 +2,12 @@
 //! sufficient.
 
 use crate::compose::{ARMS, Composed, Now};
-use crate::feet::{Placement, Support};
+use crate::feet::Placement;
 use crate::frame::Frame;
 use crate::heel::{LEAN_FIRST_RAD, MAX_RAD};
+use crate::manner::Manner;
 use crate::spine::{search_twist, squat_for, swing_axis};
+use crate::weight::Support;
 use crate::{Style, Values};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
@@ -46,6 +48,7 @@ pub(crate) struct Judged {
 pub(crate) struct Task<'a> {
     pub frame: &'a Frame,
     pub style: &'a Style,
+    pub manner: &'a Manner,
     /// The instant with the stance in it, trunk straight.
     pub now: Now,
     pub targets: [Option<DVec3>; 2],
@@ -132,6 +135,7 @@ impl Task<'_> {
         if let [(side, target)] = reaching[..] {
             let shoulder = |twist: f64| self.frame.led_shoulder(side, &self.with(&Aim { twist, ..aim }));
             aim.twist = search_twist(target, yaw, side == 1, self.values(), shoulder);
+            aim.twist = self.turned(aim.twist, target, yaw);
         } else {
             // Both hands: the trunk faces the middle of the two.
             let middle = (reaching[0].1 + reaching[1].1) * 0.5;
@@ -150,7 +154,7 @@ impl Task<'_> {
         };
         let standing = self.composed(&aim);
         let d = target - shoulder_of(&standing);
-        aim.squat = squat_for(-d.y, self.style.flexibility, self.values());
+        aim.squat = squat_for(-d.y, self.style.flexibility * self.manner.flexibility, self.values());
         self.lift_girdles(&mut aim, &standing);
         let axis = swing_axis(d, yaw + aim.twist);
         let worst = |aim: &Aim| {
@@ -203,8 +207,37 @@ impl Task<'_> {
                 }
             }
         }
-        aim.swing = axis * best.1;
+        aim.swing = axis * (best.1 + self.manner.swing_rad);
         aim
+    }
+
+    /// A twist with which the chest takes its share of the gaze shift, and with that of the manner.
+    fn turned(&self, twist: f64, target: DVec3, yaw: f64) -> f64 {
+        if self.style.print {
+            return twist;
+        }
+        let away = target - self.now.support[0].rest;
+        let left = crate::spine::wrapped(libm::atan2(away.x, away.z) - yaw - twist);
+        let is_seen = left.abs() < LOOKS_BEHIND_RAD && libm::hypot(away.x, away.z) > 0.3 * self.values().arm_m;
+        let looks = if is_seen { CHEST_SHARE * left } else { 0.0 };
+        let most = self.values().most_twist_rad;
+        (twist + looks + self.manner.twist_rad).clamp(-most, most)
+    }
+
+    /// The elbow where the manner has it, or as near to that as the joints allow.
+    pub fn swivelled(&self, (aim, judged): &mut (Aim, Judged)) {
+        for share in SWIVELS {
+            let mut other = *aim;
+            for side in 0..2 {
+                let outward = if side == 0 { 1.0 } else { -1.0 };
+                other.arms[side].swivel += outward * share * self.manner.swivel_rad;
+            }
+            let there = self.judge(&other);
+            if there.excess_rad <= judged.excess_rad && there.gap_m <= judged.gap_m.max(EXACT_M) {
+                (*aim, *judged) = (other, there);
+                return;
+            }
+        }
     }
 
     /// The shoulder girdle rises for a high target and moves forward for a far one.
@@ -336,6 +369,13 @@ const TIPTOES: [f64; 4] = [0.35, 0.5, 0.75, 1.0];
 /// Number of steps in which the swing grows, and of bisections of the last one: to about a degree.
 const SWING_STEP_RAD: f64 = 9.0 * std::f64::consts::PI / 180.0;
 const SWING_HALVINGS: usize = 3;
+
+/// Share of a gaze shift that the chest takes \[1\], up to what is looked at over the shoulder \[rad\].
+const CHEST_SHARE: f64 = 1.0 / 6.0;
+const LOOKS_BEHIND_RAD: f64 = 1.9;
+
+/// Shares of a manner's swivel that are tried.
+const SWIVELS: [f64; 3] = [1.0, 0.5, -0.5];
 
 /// Preferred swivel of the elbow outwards \[rad\].
 pub(crate) const USUAL_SWIVEL: f64 = 0.0;

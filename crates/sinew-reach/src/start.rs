@@ -4,6 +4,7 @@ use crate::Values;
 use crate::arm::Carried;
 use crate::compose::ARMS;
 use crate::feet::{Feet, Placement};
+use crate::frame::{SOFT_M, STRETCHED};
 use crate::legs::StepKind;
 use crate::minimum_jerk::MinimumJerk;
 use crate::reacher::Reacher;
@@ -126,9 +127,10 @@ impl Reacher {
             }
         }
         let at = own.positions(&body);
+        self.keep_legs(&at);
         let ago_at = before.map(|(pose, ago)| (pose.positions(&body), pose, ago));
         for side in 0..2 {
-            let (_, lower, foot) = LEGS[side];
+            let (upper, lower, foot) = LEGS[side];
             let (ankle, sole) = self.feet.foot(side, 0.0);
             let shift = at[foot.index()] - ankle;
             let turned = log(own.world[foot.index()] * sole.conjugate());
@@ -137,12 +139,47 @@ impl Reacher {
             });
             self.feet.rests[side] =
                 (glide(shift, then.map(|then| (then.0, then.2))), glide(turned, then.map(|then| (then.1, then.2))));
-            // Direction of the knee relative to the toes.
-            let hinge = own.world[lower.index()] * DVec3::X;
-            let forward = hinge.cross(DVec3::Y);
-            let yaw = crate::spine::wrapped(libm::atan2(forward.x, forward.z) - self.feet.planted[side].yaw_rad);
-            let turn = if forward.length() > 0.3 { yaw.clamp(-0.8, 0.8) } else { 0.0 };
-            self.knees[side] = MinimumJerk::moving(0.0, turn, 0.0, 0.0, lasts);
+            // Direction of the knee relative to the toes: the knee's axis is across the leg, and level but for that.
+            let line = at[foot.index()] - at[upper.index()];
+            let across = line.cross(own.world[lower.index()] * DVec3::X);
+            let yaw = libm::atan2(across.x, across.z);
+            let turn = crate::spine::wrapped(yaw - self.now(0.0).foot_yaw[side]);
+            let is_level = libm::hypot(across.x, across.z) > 0.3 * line.length();
+            self.knees[side] = MinimumJerk::moving(0.0, if is_level { turn } else { 0.0 }, 0.0, 0.0, lasts);
+        }
+        self.keep_hips(&own);
+        let composed = self.composed_at(0.0).pose;
+        for side in 0..2 {
+            let (upper, lower, _) = LEGS[side];
+            self.leg_turns[side] = [upper, lower].map(|node| {
+                let turn = log((composed.world[node.index()].conjugate() * own.world[node.index()]).normalize());
+                MinimumJerk::moving(0.0, turn.y, 0.0, 0.0, lasts)
+            });
+        }
+    }
+
+    /// Legs that are straighter than those of a plan stay so at first.
+    fn keep_legs(&mut self, at: &[DVec3; Node::COUNT]) {
+        let values = &self.frame.values;
+        let longest = LEGS.map(|(upper, _, foot)| (at[foot.index()] - at[upper.index()]).length() / values.leg_m);
+        let spare = (1.0 - longest[0].max(longest[1])).max(0.0);
+        // The soft clamp takes up to three times its width.
+        let share = (spare / (1.0 - STRETCHED + 3.0 * SOFT_M / values.leg_m)).min(1.0).sqrt();
+        self.reserve = MinimumJerk::rest(share);
+        self.reserve.go(0.0, 1.0, 0.0, UNLOCKS_SECS);
+    }
+
+    /// The hips begin exactly where they are, whatever balance and legs would have them do.
+    fn keep_hips(&mut self, own: &Pose) {
+        for _ in 0..KEEPS_HIPS {
+            let miss = own.hips_position - self.composed_at(0.0).pose.hips_position;
+            self.hips[0] = self.hips[0].begun_at(self.hips[0].at(0.0) + miss);
         }
     }
 }
+
+/// Time in which straight legs give way, so that the knees can bend \[s\].
+const UNLOCKS_SECS: f64 = 0.35;
+
+/// Rounds in which the hips' initial place is found; each leaves less than a tenth of the error.
+const KEEPS_HIPS: usize = 6;

@@ -187,6 +187,11 @@ impl Values {
         }
     }
 
+    /// Time of a hand at a peak speed \[s\].
+    pub(crate) fn quickest_hand_secs(&self, way_m: f64, peak_m_s: f64) -> f64 {
+        EARLY_PEAK * way_m / peak_m_s
+    }
+
     /// k of EQ8 \[m/rad\].
     pub fn shift_per_swing(&self) -> f64 {
         self.most_root_shift_m / self.most_swing_rad

@@ -32,8 +32,23 @@ pub struct Step {
 
 sinew_snapshot::snapshot!(Step { side, kind, length_m, start_secs });
 
-/// Maximum turn of a stance between two strides \[rad\].
-const MAX_TURN_RAD: f64 = 0.6;
+/// Maximum turn of a foot against the other \[rad\]: three strides turn by half a circle.
+const MAX_TURN_RAD: f64 = 1.6;
+
+/// Rise of the heel of a foot that is a usual step behind \[rad\].
+const HEEL_OFF_RAD: f64 = 0.36;
+
+/// Turn of a foot in each of the first strides of a walk \[rad\].
+const TURNS_RAD: f64 = 1.1;
+
+/// Distance of the ankles in standing [1 of the leg].
+const USUAL_BREADTH: f64 = 0.217;
+
+/// Turn that a single step makes without going anywhere \[rad\].
+const TURNS_WITH_STEP_RAD: f64 = 1.9;
+
+/// Length of a step of a walk \[1 of the longest step\].
+const WALKS: f64 = 0.84;
 
 impl Stance {
     /// The stance of two feet.
@@ -41,7 +56,7 @@ impl Stance {
         let yaw_rad = feet[0].yaw_rad + 0.5 * wrapped(feet[1].yaw_rad - feet[0].yaw_rad);
         let middle = (feet[0].ankle + feet[1].ankle) * 0.5;
         let breadth = (feet[0].ankle - feet[1].ankle).dot(DQuat::from_rotation_y(yaw_rad) * DVec3::X);
-        let usual = 0.217 * values.leg_m;
+        let usual = USUAL_BREADTH * values.leg_m;
         Stance { middle, yaw_rad, breadth_m: breadth.clamp(0.8 * usual, 1.4 * usual) }
     }
 
@@ -83,18 +98,29 @@ pub(crate) fn walk(
     let away = to.middle - from.middle;
     let distance = libm::hypot(away.x, away.z);
     let turn = (to.yaw_rad - from.yaw_rad).abs();
-    let unit = 0.56 * values.longest_step_m;
-    let strides = if distance > 1.05 * values.longest_step_m { (distance / unit).ceil() } else { 1.0 };
+    let unit = WALKS * values.longest_step_m;
+    let effort = libm::hypot(distance / (1.05 * values.longest_step_m), turn / TURNS_WITH_STEP_RAD);
+    let strides = if distance > 1.05 * values.longest_step_m {
+        (distance / unit).ceil()
+    } else if effort > 1.0 {
+        2.0
+    } else {
+        1.0
+    };
     let strides = strides.max((turn / MAX_TURN_RAD).ceil()).max(1.0);
     if strides > (crate::feet::MAX_STRIDES / 2) as f64 {
         return false;
     }
+    // Whoever walks turns first.
+    let turns = (turn / TURNS_RAD).ceil().clamp(1.0, strides);
     let strides = strides as usize;
     let mut at = placed;
     let mut start = start_secs;
     let mut side = first;
     for index in 1..=strides {
-        let place = from.towards(&to, index as f64 / strides as f64).foot(side);
+        let mut stance = from.towards(&to, index as f64 / strides as f64);
+        stance.yaw_rad = from.yaw_rad + (to.yaw_rad - from.yaw_rad) * (index as f64 / turns).min(1.0);
+        let place = stance.foot(side);
         let is_last = index == strides;
         let kind = if is_last && last == StepKind::Half { StepKind::Half } else { StepKind::Full };
         start = stride(feet, &mut at, side, place, kind, start, pace, values, Some(steps));
@@ -126,12 +152,28 @@ pub(crate) fn stride(
     if length_m < 0.01 && turn < 0.05 {
         return start_secs;
     }
+    // How far beyond the other foot: in a walk the foot swings twice as far.
+    let beyond = to.ankle - at[1 - side].ankle;
+    let aside = values.leg_m * USUAL_BREADTH;
+    let beyond_m = (beyond.length_squared() - aside * aside).max(0.0).sqrt().min(length_m).max(0.55 * length_m);
     // A longer step takes longer, though not in proportion.
-    let effort = (length_m / values.usual_step_m).max(0.6 * turn).min(2.0);
-    let for_secs = values.step_secs * (0.65 + 0.35 * effort) * pace;
-    let lift_m = values.foot_lift_m * (0.55 + 0.45 * effort.min(1.3));
-    if feet.push(Stride { side, to, start_secs, for_secs, lift_m })
-        && let Some(steps) = steps
+    let effort = (beyond_m / values.usual_step_m).max(0.45 * turn).min(1.6);
+    let for_secs = values.step_secs * (0.53 + 0.3 * effort) * pace;
+    let forward = DQuat::from_rotation_y(at[side].yaw_rad) * DVec3::Z;
+    let behind_m = (at[1 - side].ankle - at[side].ankle).dot(forward).max(0.25 * way.dot(forward));
+    let heel_rad = (HEEL_OFF_RAD * behind_m / values.usual_step_m).clamp(0.0, 1.1 * HEEL_OFF_RAD);
+    // A risen heel lifts the foot by itself.
+    let lift_m = values.foot_lift_m * (0.38 + 0.2 * effort.min(1.3)) * (1.0 - 0.6 * heel_rad / HEEL_OFF_RAD).max(0.3);
+    if feet.push(Stride {
+        side,
+        to,
+        start_secs,
+        for_secs,
+        lift_m,
+        heel_rad,
+        sinks_m: 0.0,
+        bears_secs: (start_secs, start_secs + for_secs),
+    }) && let Some(steps) = steps
     {
         steps.push(Step { side, kind, length_m, start_secs });
     }

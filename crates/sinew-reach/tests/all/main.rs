@@ -6,6 +6,8 @@ mod choices;
 mod common;
 mod equations;
 mod from_walk;
+mod motion;
 mod people;
 mod snapshots;
 mod targets;
+mod variety;

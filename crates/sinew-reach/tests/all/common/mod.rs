@@ -5,6 +5,8 @@
     reason = "each test uses its own part, and may use the platform's mathematics"
 )]
 
+pub mod motion;
+
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, Sole, log};
 use sinew_reach::{Goal, Outcome, Reacher, Rng, Start, Style, standing};
