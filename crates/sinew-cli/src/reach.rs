@@ -34,7 +34,7 @@ pub(crate) struct Reach {
     /// Peak speed of the hand in metres a second, 0.05 to 10 (with --print the paper's start speed).
     #[arg(long, value_name = "V", conflicts_with = "time", value_parser = within::<5, 1000>)]
     speed: Option<f64>,
-    /// Time from start to arrival in seconds, 0.2 to 600, instead of a speed.
+    /// Time from start to arrival in seconds, 0.2 to 600, instead of a speed; the least that a body can if that is more.
     #[arg(long, value_name = "T", value_parser = within::<20, 60_000>)]
     time: Option<f64>,
     /// Share of the stepping after which arm and twist begin, 0 to 1.
@@ -43,14 +43,14 @@ pub(crate) struct Reach {
     /// Share of the twist after which the spine swings, 0 to 1.
     #[arg(long, value_name = "R", value_parser = within::<0, 100>)]
     overlap_twist: Option<f64>,
-    /// Position of the moving target at a time; may be repeated, for later times.
+    /// Position of the moving target at a time; may be repeated, for later times. Without --target it begins at the first.
     #[arg(long, value_name = "X:Y:Z@T", value_parser = moving, allow_hyphen_values = true)]
     moving: Vec<MovingPoint>,
     /// A ball as obstacle of the arms: its centre and radius in metres; may be repeated. Scenes know other shapes.
     #[arg(long, value_name = "X:Y:Z:R", value_parser = ball, allow_hyphen_values = true)]
     avoid: Vec<Ball>,
-    /// Number of variations, 1 to 200, with seeds from --seed on; the picture is a contact sheet, and files are
-    /// numbered.
+    /// Number of variations, 1 to 200, with seeds from --seed on; the picture is a contact sheet, and files
+    /// are named by their seeds, such as reach_seed3.glb.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=200))]
     variations: Option<u64>,
     /// Begin in a clip at a time, such as walk.bvh@1.5.
@@ -99,7 +99,7 @@ impl Reach {
             let job = self.job(self.seed.wrapping_add(index));
             let reached = reach(&job, clip.as_ref())?;
             for path in &self.files.motions {
-                let path = if self.variations.is_some() { numbered(path, index + 1) } else { path.clone() };
+                let path = if self.variations.is_some() { of_seed(path, reached.report.seed) } else { path.clone() };
                 let rig =
                     |_: &RecordedCharacter| Ok(clip.as_ref().map(|file| reached.own_rig(&job, file)).transpose()?);
                 // Out of a clip, the character alone: the targets are no part of its file.
@@ -177,14 +177,29 @@ impl Reach {
         let mut lines: Vec<String> =
             all.iter().map(|one| format!("{}{}", seed(one.report.seed), one.report.words())).collect();
         let nothing = || "nothing written; add -o reach.glb, --report r.json or --picture p.png".to_owned();
-        lines.push(self.files.words(std::iter::empty()).unwrap_or_else(nothing));
+        lines.push(self.written(all).unwrap_or_else(nothing));
         lines.join("\n")
+    }
+
+    /// The list of written files, as text: of variations the first and the last.
+    fn written(&self, all: &[Reached]) -> Option<String> {
+        if self.variations.is_none() {
+            return self.files.words(std::iter::empty());
+        }
+        let (first, last) = (all.first()?.report.seed, all.last()?.report.seed);
+        let of = |path: &PathBuf| match all.len() {
+            1 => of_seed(path, first).display().to_string(),
+            many => format!("{} to {} ({many} files)", of_seed(path, first).display(), of_seed(path, last).display()),
+        };
+        let others = self.files.report.iter().chain(&self.files.picture).map(|path| path.display().to_string());
+        let names: Vec<String> = self.files.motions.iter().map(of).chain(others).collect();
+        (!names.is_empty()).then(|| format!("wrote {}", names.join(", ")))
     }
 }
 
-/// `reach.glb` as `reach_07.glb`.
-fn numbered(path: &Path, index: u64) -> PathBuf {
+/// `reach.glb` as `reach_seed7.glb`.
+fn of_seed(path: &Path, seed: u64) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let extension = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}_{index:02}.{extension}"))
+    path.with_file_name(format!("{stem}_seed{seed}.{extension}"))
 }

@@ -1,6 +1,7 @@
 //! The feet: planted or in a step, and the support that they give.
 
-use crate::minimum_jerk::{MinimumJerk, arc, eased};
+use crate::minimum_jerk::{MinimumJerk, arc, early, eased};
+use crate::stop::BEFORE_SECS;
 use crate::weight::{Support, legs_m};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose, Sole};
@@ -38,6 +39,11 @@ pub struct Stride {
 }
 
 impl Stride {
+    /// Whether it is one with which a body that walked comes to stand.
+    pub(crate) fn stops(&self) -> bool {
+        self.bears_secs == BEFORE_SECS
+    }
+
     /// The middle of the swing \[s\].
     pub(crate) fn middle_secs(&self) -> f64 {
         self.start_secs + 0.5 * self.for_secs
@@ -74,8 +80,6 @@ pub struct Feet {
     /// Decaying rest of the initial placement: shift \[m\] and rotation (world) of each foot.
     pub(crate) rests: [(MinimumJerk<DVec3>, MinimumJerk<DVec3>); 2],
     pub(crate) linear: bool,
-    /// Strides that belong to the start and are not dropped on a new goal.
-    closing: Option<Stride>,
 }
 
 snapshot!(Placement { ankle, yaw_rad });
@@ -87,14 +91,12 @@ impl Snapshot for Feet {
         self.planted.save(to);
         self.strides.save(to);
         self.rests.save(to);
-        self.closing.save(to);
         self.linear.save(to);
     }
     fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
         self.planted.restore(from)?;
         self.strides.restore(from)?;
         self.rests.restore(from)?;
-        self.closing.restore(from)?;
         self.linear.restore(from)?;
         if self.strides.len() > MAX_STRIDES || self.strides.iter().any(|stride| stride.side > 1) {
             return Err(SnapshotError::invalid("stride"));
@@ -119,7 +121,6 @@ impl Feet {
             stances: Vec::with_capacity(MAX_STRIDES + 1),
             rests: [(MinimumJerk::rest(DVec3::ZERO), MinimumJerk::rest(DVec3::ZERO)); 2],
             linear,
-            closing: None,
         };
         feet.stand_anew();
         feet
@@ -140,11 +141,6 @@ impl Feet {
         fits
     }
 
-    /// Marks the strides so far as part of the start: they are not dropped on a new goal.
-    pub(crate) fn keep_closing(&mut self) {
-        self.closing = self.strides.last().copied();
-    }
-
     /// Links the strides from an index on to a walk: the weight goes on from each to the next.
     pub(crate) fn link(&mut self, from: usize) {
         for index in from..self.strides.len() {
@@ -160,14 +156,13 @@ impl Feet {
     /// Drops strides to which the weight does not yet move.
     pub(crate) fn stop(&mut self, secs: f64) {
         let before = self.strides.len();
-        let closing = self.closing;
-        self.strides.retain(|stride| stride.bears_secs.0 <= secs || Some(*stride) == closing);
+        self.strides.retain(|stride| stride.bears_secs.0 <= secs);
         if self.strides.len() < before {
             self.stand_anew();
         }
     }
 
-    fn stand_anew(&mut self) {
+    pub(crate) fn stand_anew(&mut self) {
         self.stances.clear();
         let mut stands = self.planted;
         self.stances.push(self.supports_of(&stands));
@@ -228,6 +223,8 @@ impl Feet {
             if share <= 0.0 {
                 break;
             }
+            // Who stops sets the foot off at once.
+            let share = if stride.stops() { early(share) } else { share };
             let (go, rise) = self.profile(share);
             at.ankle = at.ankle + (stride.to.ankle - at.ankle) * go + DVec3::Y * (stride.lift_m * rise);
             at.yaw_rad += (stride.to.yaw_rad - at.yaw_rad) * go;

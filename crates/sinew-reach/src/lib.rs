@@ -15,7 +15,7 @@
 //! | scheduler: states 0 to 3 | `plan.rs`, `schedule.rs`, `timing.rs` |
 //! | what varies from seed to seed | `manner.rs` |
 //! | open values | `values.rs` |
-//! | the pose it begins in; goals; targets that move | `start.rs`, `reacher.rs`, `moving_goal.rs` |
+//! | the pose it begins in; goals; targets that move and fly | `start.rs`, `stop.rs`, `reacher.rs`, `moving_goal.rs`, `flight.rs` |
 //! | from start to end frame by frame; what came of it | `playback.rs`, `meter.rs` |
 //!
 //! ```
@@ -42,6 +42,7 @@ mod arm;
 mod arm_place;
 mod compose;
 mod feet;
+mod flight;
 mod follow;
 mod frame;
 mod hand_path;
@@ -66,12 +67,14 @@ mod sink;
 mod solve;
 mod spine;
 mod start;
+mod stop;
 mod timing;
 mod values;
 mod walk;
 mod weight;
 
 pub use feet::{Feet, Placement, Stride};
+pub use flight::{Flight, Meeting};
 pub use hand_path::{HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S};
 pub use head::look;
 pub use legs::{

@@ -185,6 +185,12 @@ pub fn eased(share: f64) -> f64 {
     u * u * u * (10.0 + u * (6.0 * u - 15.0))
 }
 
+/// A share of a time that runs fast first: u becomes 1 − (1 − u)^1.5.
+pub fn early(share: f64) -> f64 {
+    let left = 1.0 - share.clamp(0.0, 1.0);
+    1.0 - left * left.sqrt()
+}
+
 /// From 0 over 1 in the middle back to 0, with velocity and acceleration 0 at both ends: a convex arc.
 pub fn arc(share: f64) -> f64 {
     let u = share.clamp(0.0, 1.0);

@@ -8,7 +8,8 @@ use crate::manner::Manner;
 use crate::minimum_jerk::MinimumJerk;
 use crate::outcome::{Outcome, Reason};
 use crate::solve::Task;
-use crate::start::{Start, close_stride, placed_feet};
+use crate::start::{Start, flat_feet};
+use crate::stop::Stop;
 use crate::walk::Step;
 use crate::{Rng, Style, Values};
 use glam::DVec3;
@@ -84,8 +85,12 @@ impl Reacher {
     pub fn new(body: &Body, style: &Style, start: &Start) -> Result<Reacher, crate::StyleError> {
         style.check()?;
         let frame = Frame::new(body, style);
-        let mut feet = Feet::new(body, placed_feet(start, body, frame.ankle_m), style.print);
-        close_stride(&mut feet, start, body, &frame.values);
+        let mut stop = Stop::of(start, body, &frame.values, frame.ankle_m);
+        let placed = stop.as_ref().map_or_else(|| flat_feet(&start.pose, body, frame.ankle_m), |stop| stop.placed);
+        let mut feet = Feet::new(body, placed, style.print);
+        if let Some(stop) = &mut stop {
+            stop.stride(&mut feet, &frame.values);
+        }
         let rest = MinimumJerk::rest(DVec3::ZERO);
         let arms = [0, 1].map(|side| Arm::carried(side, &start.pose));
         let mut reacher = Reacher {
@@ -119,7 +124,7 @@ impl Reacher {
             frame,
             style: *style,
         };
-        reacher.begin(start);
+        reacher.begin(start, stop.as_ref());
         Ok(reacher)
     }
 

@@ -1,7 +1,7 @@
 //! How far the hips sink in a walk, so that both legs reach their feet.
 
 use crate::feet::{Feet, Stride};
-use crate::minimum_jerk::arc;
+use crate::minimum_jerk::{MinimumJerk, arc};
 use glam::{DQuat, DVec3};
 
 /// Samples of a stride, and rounds over all strides: those beside it sink with it.
@@ -12,10 +12,13 @@ const ROUNDS: usize = 2;
 const AROUND: f64 = 0.5;
 
 /// Samples at which a stride's own sinking is less than this share of its most are its neighbours' \[1\].
-const OWN: f64 = 0.35;
+const OWN: f64 = 0.5;
 
 /// By how much less than its length a leg reaches in a walk \[m\]: its knee stays a little bent when the foot lands.
 const BENT_M: f64 = 0.004;
+
+/// Deepest sinking of a stride \[1 of the leg\].
+const MOST: f64 = 0.14;
 
 /// Course of the sinking of a stride \[1\].
 pub(crate) fn sinks(stride: &Stride, secs: f64) -> f64 {
@@ -25,7 +28,8 @@ pub(crate) fn sinks(stride: &Stride, secs: f64) -> f64 {
 
 /// When the hips begin to sink: with the first stride of a walk only as it begins \[s\].
 fn begins_secs(stride: &Stride) -> f64 {
-    stride.bears_secs.0.max(stride.start_secs - AROUND * stride.for_secs)
+    let first = if stride.stops() { 0.0 } else { stride.bears_secs.0 };
+    first.max(stride.start_secs - AROUND * stride.for_secs)
 }
 
 /// Samples of a stride at which the acceleration of a walk is measured.
@@ -39,7 +43,7 @@ impl Feet {
             return 0.0;
         }
         self.link(from);
-        self.sink(from);
+        self.sink(from, MinimumJerk::rest(DVec3::ZERO));
         let (fastest, roughest) = self.roughness(from);
         let slower = (roughest / most_m_s2).sqrt().max(1.0);
         let begins = self.strides[from].start_secs;
@@ -73,8 +77,13 @@ impl Feet {
         (fastest, roughest)
     }
 
+    /// The same for the strides with which a body comes to stand, whose hips are still `shift` away from where they will be \[m\].
+    pub(crate) fn sink_from(&mut self, shift: MinimumJerk<DVec3>) {
+        self.sink(0, shift);
+    }
+
     /// Has the hips sink in the strides from an index on as far as the legs need it, sampled along the way.
-    pub(crate) fn sink(&mut self, from: usize) {
+    fn sink(&mut self, from: usize, shift: MinimumJerk<DVec3>) {
         if self.linear {
             return;
         }
@@ -87,21 +96,21 @@ impl Feet {
                     let secs = from + (to - from) * sample as f64 / SAMPLES as f64;
                     let course = sinks(&stride, secs);
                     if course > OWN {
-                        more = more.max(self.lacks_m(secs) / course);
+                        more = more.max(self.lacks_m(secs, shift.at(secs)) / course);
                     }
                 }
-                self.strides[index].sinks_m += more;
+                self.strides[index].sinks_m += more.min(MOST * self.legs_m.0 - self.strides[index].sinks_m);
             }
         }
     }
 
     /// How much lower the hips would have to be at a time \[s\] for the longer leg to reach its foot \[m\].
-    fn lacks_m(&self, secs: f64) -> f64 {
+    fn lacks_m(&self, secs: f64, shift: DVec3) -> f64 {
         let support = self.support(secs);
         let turn = DQuat::from_rotation_y(support.yaw_rad);
         let (leg_m, hips_m) = self.legs_m;
         let reach_m = leg_m - BENT_M;
-        let hips = support.rest - turn * self.rest_com;
+        let hips = support.rest - turn * self.rest_com + shift;
         let lowest = [0, 1].map(|side| {
             let joint = hips + turn * DVec3::new(if side == 0 { 0.5 } else { -0.5 } * hips_m, 0.0, 0.0);
             let foot =
@@ -110,6 +119,6 @@ impl Feet {
             let ankle_m = foot.0.y - (support.centre.y + self.soles[side].ankle_m);
             ankle_m + (reach_m * reach_m - away).max(0.25 * leg_m * leg_m).sqrt()
         });
-        (leg_m - support.dip_m - lowest[0].min(lowest[1])).max(0.0)
+        (leg_m - support.dip_m + shift.y - lowest[0].min(lowest[1])).max(0.0)
     }
 }

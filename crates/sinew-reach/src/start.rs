@@ -1,14 +1,12 @@
 //! The initial pose of a reach, and the decay of its difference from a standing body.
 
-use crate::Values;
 use crate::arm::Carried;
 use crate::compose::ARMS;
-use crate::feet::{Feet, Placement};
+use crate::feet::Placement;
 use crate::frame::{SOFT_M, STRETCHED};
-use crate::legs::StepKind;
 use crate::minimum_jerk::MinimumJerk;
 use crate::reacher::Reacher;
-use crate::walk::Stance;
+use crate::stop::Stop;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, LEGS, Node, Pose, log};
 
@@ -32,59 +30,18 @@ pub fn standing(body: &Body, place: DVec3, facing_rad: f64) -> Pose {
     pose
 }
 
-/// The placements of both feet, on the floor below the lower sole.
-pub(crate) fn placed_feet(start: &Start, body: &Body, ankle_m: f64) -> [Placement; 2] {
-    let pose = &start.pose;
+/// Both feet where they are, flat on the floor below the lower of them.
+pub(crate) fn flat_feet(pose: &Pose, body: &Body, ankle_m: f64) -> [Placement; 2] {
     let at = pose.positions(body);
     let floor = LEGS.iter().map(|(_, _, foot)| at[foot.index()].y).fold(f64::INFINITY, f64::min) - ankle_m;
-    let mut placed = [0, 1].map(|side| {
-        let (_, _, foot) = LEGS[side];
+    let mut placed = LEGS.map(|(_, _, foot)| {
         let toes = pose.world[foot.index()] * DVec3::Z;
-        let ankle = at[foot.index()] + lands_ahead(start, body, foot);
-        Placement { ankle: DVec3::new(ankle.x, floor + ankle_m, ankle.z), yaw_rad: libm::atan2(toes.x, toes.z) }
+        let ankle = at[foot.index()].with_y(floor + ankle_m);
+        Placement { ankle, yaw_rad: libm::atan2(toes.x, toes.z) }
     });
     placed[1].yaw_rad = placed[0].yaw_rad + crate::spine::wrapped(placed[1].yaw_rad - placed[0].yaw_rad);
     placed
 }
-
-/// Distance from its present position to the landing point of a foot that swings when the reach begins \[m\].
-fn lands_ahead(start: &Start, body: &Body, foot: Node) -> DVec3 {
-    let Some((before, ago)) = &start.before else { return DVec3::ZERO };
-    let at = |pose: &Pose| pose.positions(body)[foot.index()];
-    let velocity = (at(&start.pose) - at(before)) / ago.max(1e-3);
-    let flat = DVec3::new(velocity.x, 0.0, velocity.z);
-    let moves = crate::head::smooth(flat.length(), 0.2, 0.8);
-    (flat * (LANDS_SECS * moves)).clamp_length_max(0.45 * body.stature_m() / 1.7)
-}
-
-/// If the reach begins in mid-stride, the trailing foot closes the step as soon as the other has landed.
-pub(crate) fn close_stride(feet: &mut Feet, start: &Start, body: &Body, values: &Values) {
-    let Some((before, ago)) = &start.before else { return };
-    let velocity = (start.pose.hips_position - before.hips_position) / ago.max(1e-3);
-    let Some(forward) = DVec3::new(velocity.x, 0.0, velocity.z).try_normalize() else { return };
-    let mut placed = feet.last();
-    let ahead = (placed[0].ankle - placed[1].ankle).dot(forward);
-    let (behind, front) = if ahead < 0.0 { (0, 1) } else { (1, 0) };
-    let (_, _, foot) = LEGS[behind];
-    let moved = start.pose.positions(body)[foot.index()] - before.positions(body)[foot.index()];
-    if ahead.abs() < LONG_STRIDE * values.usual_step_m || moved.length() / ago.max(1e-3) > STANDS_M_S {
-        return;
-    }
-    let stance = Stance::of(&placed, values);
-    let aside = (stance.foot(behind).ankle - stance.foot(front).ankle).length() * if behind == 0 { 1.0 } else { -1.0 };
-    let yaw_rad = placed[front].yaw_rad;
-    let beside = placed[front].ankle + DQuat::from_rotation_y(yaw_rad) * DVec3::X * aside;
-    let to = Placement { ankle: beside, yaw_rad };
-    crate::walk::stride(feet, &mut placed, behind, to, StepKind::Full, LANDS_SECS, 1.0, values, None);
-    feet.keep_closing();
-}
-
-/// Minimum length of a stride that is closed \[1 of the usual step\]; maximum speed of a standing foot \[m/s\].
-const LONG_STRIDE: f64 = 0.6;
-const STANDS_M_S: f64 = 0.6;
-
-/// Time for which a swinging foot keeps its speed, in total, until it stands \[s\].
-const LANDS_SECS: f64 = 0.2;
 
 /// Decay time of the initial pose's difference \[s\]: for a body at rest, and for a moving one.
 const SETTLES_SECS: (f64, f64) = (0.5, 0.4);
@@ -94,23 +51,25 @@ const CARRIED_ON: f64 = 0.35;
 
 impl Reacher {
     /// The initial pose's difference from a standing body, which decays.
-    pub(crate) fn begin(&mut self, start: &Start) {
+    pub(crate) fn begin(&mut self, start: &Start, stop: Option<&Stop>) {
         let body = self.frame.body.clone();
         let plain = self.composed_at(0.0).pose;
         let (own, before) = (start.pose, start.before);
         let lasts = if before.is_some() { SETTLES_SECS.1 } else { SETTLES_SECS.0 };
-        let glide = |now: DVec3, then: Option<(DVec3, f64)>| {
+        let glide_in = |now: DVec3, then: Option<(DVec3, f64)>, lasts: f64| {
             let velocity = then.map_or(DVec3::ZERO, |(then, ago)| (now - then) / ago.max(1e-3));
             MinimumJerk::moving(0.0, now, velocity.clamp_length_max(20.0), DVec3::ZERO, lasts)
         };
+        let glide = |now: DVec3, then: Option<(DVec3, f64)>| glide_in(now, then, lasts);
         self.heels.go(0.0, 1.0, 0.0, lasts);
         // A moving body continues a little: it stands where its feet land.
         let turn = |pose: &Pose| log(pose.world[0] * plain.world[0].conjugate());
+        let shift = own.hips_position - plain.hips_position;
+        let stops_secs = before
+            .filter(|_| stop.is_some())
+            .map_or(lasts, |(pose, ago)| stops_secs(shift, own.hips_position - pose.hips_position, ago));
         self.hips = [
-            glide(
-                own.hips_position - plain.hips_position,
-                before.map(|(pose, ago)| (pose.hips_position - plain.hips_position, ago)),
-            ),
+            glide_in(shift, before.map(|(pose, ago)| (pose.hips_position - plain.hips_position, ago)), stops_secs),
             glide(turn(&own), before.map(|(pose, ago)| (turn(&pose), ago))),
         ];
         for (index, node) in [Node::Chest, Node::Neck, Node::Head].into_iter().enumerate() {
@@ -137,17 +96,26 @@ impl Reacher {
             let then = ago_at.map(|(at, pose, ago)| {
                 (at[foot.index()] - ankle, log(pose.world[foot.index()] * sole.conjugate()), ago)
             });
-            self.feet.rests[side] =
-                (glide(shift, then.map(|then| (then.0, then.2))), glide(turned, then.map(|then| (then.1, then.2))));
+            let settles = stop.map_or(lasts, |stop| stop.settles_secs[side]);
+            self.feet.rests[side] = (
+                glide_in(shift, then.map(|then| (then.0, then.2)), settles),
+                glide_in(turned, then.map(|then| (then.1, then.2)), settles),
+            );
             // Direction of the knee relative to the toes: the knee's axis is across the leg, and level but for that.
             let line = at[foot.index()] - at[upper.index()];
-            let across = line.cross(own.world[lower.index()] * DVec3::X);
+            let hinge = own.world[lower.index()] * DVec3::X;
+            // A bent knee shows its axis better than the lower leg's own.
+            let bend = (at[lower.index()] - at[upper.index()]).cross(at[foot.index()] - at[lower.index()]);
+            let bend = bend / self.frame.values.leg_m.powi(2) * 4.0;
+            let hinge = bend * bend.dot(hinge).signum() + hinge * 0.02;
+            let across = line.cross(hinge.normalize_or(DVec3::X));
             let yaw = libm::atan2(across.x, across.z);
             let turn = crate::spine::wrapped(yaw - self.now(0.0).foot_yaw[side]);
             let is_level = libm::hypot(across.x, across.z) > 0.3 * line.length();
             self.knees[side] = MinimumJerk::moving(0.0, if is_level { turn } else { 0.0 }, 0.0, 0.0, lasts);
         }
         self.keep_hips(&own);
+        self.feet.sink_from(self.hips[0]);
         let composed = self.composed_at(0.0).pose;
         for side in 0..2 {
             let (upper, lower, _) = LEGS[side];
@@ -171,9 +139,15 @@ impl Reacher {
 
     /// The hips begin exactly where they are, whatever balance and legs would have them do.
     fn keep_hips(&mut self, own: &Pose) {
+        let (mut last, mut gain): (f64, f64) = (0.0, 1.0);
         for _ in 0..KEEPS_HIPS {
             let miss = own.hips_position - self.composed_at(0.0).pose.hips_position;
-            self.hips[0] = self.hips[0].begun_at(self.hips[0].at(0.0) + miss);
+            // Hips that hang on a stretched leg do not sink before what is wanted of them is lower.
+            let hangs = miss.y < 0.0 && miss.y < 0.5 * last && last < 0.0;
+            gain = if hangs { 2.0 * gain } else { 1.0 };
+            last = miss.y;
+            let shift = DVec3::new(miss.x, miss.y * gain, miss.z);
+            self.hips[0] = self.hips[0].begun_at(self.hips[0].at(0.0) + shift);
         }
     }
 }
@@ -181,5 +155,12 @@ impl Reacher {
 /// Time in which straight legs give way, so that the knees can bend \[s\].
 const UNLOCKS_SECS: f64 = 0.35;
 
-/// Rounds in which the hips' initial place is found; each leaves less than a tenth of the error.
-const KEEPS_HIPS: usize = 6;
+/// Time in which walking hips come to rest \[s\]: by a braking that grows and fades evenly, in twice the time of their way.
+fn stops_secs(shift: DVec3, moved: DVec3, ago: f64) -> f64 {
+    let velocity = (moved / ago.max(1e-3)).with_y(0.0);
+    let speed = velocity.length().max(1e-3);
+    (2.0 * -shift.dot(velocity) / (speed * speed)).clamp(SETTLES_SECS.1, 1.0)
+}
+
+/// Rounds in which the hips' initial place is found; most leave less than a tenth of the error.
+const KEEPS_HIPS: usize = 16;

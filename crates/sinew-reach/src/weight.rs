@@ -138,8 +138,12 @@ impl Feet {
         let passed = |from: f64, to: f64| eased((secs - from) / (to - from));
         let of = |stride: &Stride| {
             let (start, lasts) = (stride.start_secs, stride.for_secs);
-            let begins = (start - PUSHES * lasts).max(stride.bears_secs.0.min(start));
-            let rises = passed(begins, begins + 0.6 * lasts);
+            let (begins, rises) = if stride.stops() {
+                (0.0, PUSHES_OFF_SECS.max(start))
+            } else {
+                ((start - PUSHES * lasts).max(stride.bears_secs.0.min(start)), 0.6 * lasts)
+            };
+            let rises = passed(begins, begins + rises);
             stride.heel_rad * rises * (1.0 - passed(start + 0.15 * lasts, start + 0.9 * lasts))
         };
         self.strides.iter().filter(|stride| stride.side == side).map(of).sum()
@@ -165,6 +169,9 @@ impl Feet {
         dip
     }
 }
+
+/// Time in which the heel of who stops rises \[s\].
+const PUSHES_OFF_SECS: f64 = 0.22;
 
 /// How much lower hips over feet that are apart are than straight legs would have them \[1\].
 const SPARES: f64 = 1.2;

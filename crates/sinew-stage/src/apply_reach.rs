@@ -48,6 +48,7 @@ impl Stage {
         let frame = self.world.frame();
         let now_secs = frame.time_secs;
         let start = self.start_of(self.actor(index)?, self.character_frame(index)?, now_secs);
+        let flight = self.flight_of(&aimed);
         let actor = self.actors.get_mut(&index).ok_or_else(|| gone(index))?;
         let mut reach = match actor.sources.take_reach() {
             // On from the reach before: nothing jumps.
@@ -59,7 +60,7 @@ impl Stage {
         }
         .map_err(|error| OrderError::new(OrderErrorKind::OutOfRange, error.to_string()))?;
         actor.reaches += 1;
-        reach.order(order, aimed, &obstacles, frame, actor.reaches);
+        reach.order(order, aimed, &obstacles, frame, flight.as_ref(), actor.reaches);
         let (goal, outcome) = (reach.goal(frame), reach.reacher().outcome());
         let point = || ReachTarget::Point(goal.left.or(goal.right).unwrap_or_default());
         let effect = CharacterEffect::Reaches {
@@ -67,6 +68,7 @@ impl Stage {
             in_secs: outcome.arrives_secs - reach.own_secs(now_secs),
             steps: outcome.steps.len(),
             fails: outcome.reason,
+            late: outcome.is_late,
         };
         actor.sources.set_reach(reach);
         self.pass_through(index, &aimed);

@@ -5,8 +5,11 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
 use sinew_control::source::{Aimed, HANDS};
 use sinew_control::{OrderError, OrderErrorKind, ReachHand, ReachOrder};
-use sinew_reach::Obstacle;
+use sinew_reach::{Flight, Obstacle};
 use sinew_world::{BodyState, CharacterId, Entity, Form, PropId, Solid};
+
+/// A prop that is slower than this does not fly \[m/s\].
+const FLIES_M_S: f64 = 0.5;
 
 /// A hand's own thickness, between its centre and what it touches \[m\].
 const PALM_M: f64 = 0.035;
@@ -60,6 +63,30 @@ impl Stage {
         let mut aimed = [None; 2];
         aimed[side] = Some(Aimed::Prop(prop, surface(from.normalize_or(DVec3::Y))));
         Ok(aimed)
+    }
+
+    /// How the prop of a reach flies: by gravity and drag alone, as nothing holds or touches it. `None` for one that does not.
+    pub(crate) fn flight_of(&self, aimed: &[Option<Aimed>; 2]) -> Option<Flight> {
+        let frame = self.world.frame();
+        let prop = aimed.iter().flatten().find_map(|aimed| match aimed {
+            Aimed::Prop(prop, _) => Some(*prop),
+            _ => None,
+        })?;
+        let (state, spec) = (frame.prop(prop)?, self.scene.props.get(self.cast.prop_name(prop))?);
+        let is_held = self.world.held().any(|held| held.object == Entity::Prop(prop));
+        let name = self.cast.prop_name(prop);
+        let is_tied = self.scene.joints.values().any(|joint| joint.between.iter().any(|end| end == name));
+        let flies = spec.mass_kg.is_some()
+            && state.velocity.length() > FLIES_M_S
+            && frame.touching(Entity::Prop(prop)).next().is_none()
+            && !is_held
+            && !is_tied;
+        flies.then(|| Flight {
+            at: state.centre,
+            velocity: state.velocity,
+            gravity_m_s2: self.world.settings().gravity_m_s2 * spec.gravity_scale.unwrap_or(1.0),
+            drag_per_s: spec.drag_per_s,
+        })
     }
 
     /// Props that arms keep clear of, where they are now.

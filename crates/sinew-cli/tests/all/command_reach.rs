@@ -27,7 +27,7 @@ fn every_option_does_what_it_says() {
     };
     let number = |report: &Value, key: &str| report[key].as_f64().unwrap();
     type Claim<'a> = &'a dyn Fn(&Value) -> bool;
-    let cases: [(&str, Claim<'_>); 18] = [
+    let cases: [(&str, Claim<'_>); 20] = [
         ("--target 0.3:1.3:0.4", &|report| hands(report) == ["left"]),
         ("--target -0.3:1.3:0.4", &|report| hands(report) == ["right"]),
         ("--target 0.3:1.3:0.4 --hand right", &|report| hands(report) == ["right"]),
@@ -45,6 +45,11 @@ fn every_option_does_what_it_says() {
         ("--target -0.2:1.3:0.45 --speed 2", &|report| number(report, "hand_speed_max_m_s") > 1.2),
         ("--target -0.2:1.3:0.45 --time 1.5", &|report| (number(report, "duration_s") - 1.5).abs() < 1e-6),
         ("--target -0.2:1.3:0.4 --moving -0.5:1.0:0.4@1 --moving -0.1:1.5:0.4@3", &|report| report["reached"] == true),
+        ("--moving 0.2:1.2:0.6@2 --moving -0.2:1.4:0.5@4", &|report| report["reached"] == true),
+        // 2.9 m in half a second: nobody can, and it says so.
+        ("--target 1.5:1.0:2.5 --time 0.5", &|report| {
+            report["late"] == true && (1.5..3.0).contains(&number(report, "duration_s"))
+        }),
         ("--target -0.2:1.1:0.45 --avoid -0.28:1.05:0.25:0.05", &|report| report["reached"] == true),
         ("--target -0.2:1.3:0.45 --seed 9", &|report| report["seed"] == 9),
         ("--target -0.3:1.3:0.9 --from WALK@1.5", &|report| report["reached"] == true),
@@ -75,13 +80,15 @@ fn overlaps_move_what_begins_after_what() {
 fn twenty_ways_are_twenty_files_one_list_and_one_sheet() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    reach(at, "--target -0.2:1.1:0.8 --variations 20 --seed 3 -o way.csv --report r.json --picture p.png").done();
+    let ran =
+        reach(at, "--target -0.2:1.1:0.8 --variations 20 --seed 3 -o way.csv --report r.json --picture p.png").done();
+    assert!(ran.out.contains("wrote way_seed3.csv to way_seed22.csv (20 files), r.json, p.png"), "{}", ran.out);
     let reports = json(&at.join("r.json"));
     let reports = reports.as_array().unwrap();
     assert_eq!(reports.len(), 20);
     assert_eq!(reports[19]["seed"], 22);
-    for index in [1, 20] {
-        assert!(at.join(format!("way_{index:02}.csv")).is_file());
+    for seed in [3, 22] {
+        assert!(at.join(format!("way_seed{seed}.csv")).is_file());
     }
     assert!(!at.join("way.csv").exists() && at.join("p.png").is_file());
     // Choices differ: with 20 seeds at even odds two kinds of steps are all but certain.

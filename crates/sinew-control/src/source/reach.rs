@@ -4,8 +4,8 @@ use super::Source;
 use crate::{ReachHand, ReachOrder, Root, Wanted};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
-use sinew_reach::{Goal, Obstacle, Reacher, Start, Style, StyleError};
-use sinew_world::{CharacterId, Entity, Frame, Held, PropId};
+use sinew_reach::{Flight, Goal, Obstacle, Reacher, Start, Style, StyleError};
+use sinew_world::{BodyState, CharacterId, Entity, Frame, Held, PropId};
 
 /// The target of a hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +45,8 @@ pub struct ReachSource {
     character: CharacterId,
     step_secs: f64,
     aimed: [Option<Aimed>; 2],
+    /// A flying target: how it flies, and when a hand meets it \[s\].
+    meets: Option<Meets>,
     phase: Phase,
     /// The time is up.
     has_arrived: bool,
@@ -53,6 +55,17 @@ pub struct ReachSource {
     /// Time at which the previous source was left \[s\].
     left_secs: f64,
     has_resumed: bool,
+}
+
+/// What flies, and when it is met.
+#[derive(Clone, Copy, Debug)]
+struct Meets {
+    prop: PropId,
+    gravity_m_s2: f64,
+    drag_per_s: f64,
+    /// Time of the meeting \[s\], and its place \[m\].
+    secs: f64,
+    at: DVec3,
 }
 
 /// Events of a reach with effects outside it.
@@ -90,6 +103,9 @@ pub struct HandArrival {
 /// Maximum distance of the hand from its target for a grasp \[m\]: the body may deviate from its wanted pose.
 const GRASP_M: f64 = 0.04;
 
+/// Steps before and after the present one in which a hand meets what flies.
+const MEETS_STEPS: f64 = 2.0;
+
 /// Maximum distance that counts as arrived \[m\].
 const THERE_M: f64 = 0.02;
 
@@ -115,6 +131,7 @@ impl ReachSource {
             character,
             step_secs,
             aimed: [None; 2],
+            meets: None,
             phase: Phase::Reaching,
             has_arrived: false,
             is_there: false,
@@ -132,13 +149,15 @@ impl ReachSource {
         self.reacher.set_style(style)
     }
 
-    /// Reaches from now on; `number` counts the character's orders.
+    /// Reaches from now on; `number` counts the character's orders. With a `flight`, a thing that one hand is aimed at flies so: the hand
+    /// goes to where it can meet it.
     pub fn order(
         &mut self,
         order: &ReachOrder<PropId>,
         aimed: [Option<Aimed>; 2],
         obstacles: &[Obstacle],
         frame: &Frame,
+        flight: Option<&Flight>,
         number: u64,
     ) {
         self.number = number;
@@ -148,8 +167,41 @@ impl ReachSource {
         self.phase = Phase::Reaching;
         (self.has_arrived, self.is_there) = (false, false);
         self.reacher.set_obstacles(obstacles);
+        self.meets = None;
+        if let (Some(flight), Some((side, prop, offset))) = (flight, self.flies()) {
+            let meeting = self.reacher.meet(side, flight, offset);
+            self.meets = meeting.map(|meeting| Meets {
+                prop,
+                gravity_m_s2: flight.gravity_m_s2,
+                drag_per_s: flight.drag_per_s,
+                secs: frame.time_secs + meeting.in_secs,
+                at: meeting.at - offset,
+            });
+            if self.meets.is_some() {
+                return;
+            }
+        }
         let goal = self.goal(frame);
         self.reacher.reach(&goal);
+    }
+
+    /// The one hand that is aimed at a prop.
+    fn flies(&self) -> Option<(usize, PropId, DVec3)> {
+        match self.aimed {
+            [Some(Aimed::Prop(prop, offset)), None] => Some((0, prop, offset)),
+            [None, Some(Aimed::Prop(prop, offset))] => Some((1, prop, offset)),
+            _ => None,
+        }
+    }
+
+    /// Looks where a flying thing is now, and so where it will be met.
+    fn watch(&mut self, frame: &Frame) {
+        let Some(meets) = &mut self.meets else { return };
+        let left = meets.secs - frame.time_secs;
+        let Some(prop) = frame.prop(meets.prop).filter(|_| left > 0.0) else { return };
+        let Meets { gravity_m_s2, drag_per_s, .. } = *meets;
+        let flight = Flight { at: prop.centre, velocity: prop.velocity, gravity_m_s2, drag_per_s };
+        meets.at = flight.after(left);
     }
 
     /// The planner. Its poses are the wanted ones, not the body's.
@@ -176,6 +228,7 @@ impl ReachSource {
     pub fn goal(&self, frame: &Frame) -> Goal {
         let at = |side: usize| match self.aimed[side]? {
             Aimed::Point(point) => Some(point),
+            Aimed::Prop(_, offset) if self.meets.is_some() => Some(self.meets?.at + offset),
             Aimed::Prop(prop, offset) => Some(frame.prop(prop)?.centre + offset),
             Aimed::Held(prop, point) => {
                 let hand = frame.character(self.character)?.part(HANDS[side]);
@@ -236,6 +289,7 @@ impl ReachSource {
         self.reacher.advance(own_secs);
         match self.phase {
             Phase::Reaching => {
+                self.watch(frame);
                 let goal = self.goal(frame);
                 if self.aimed.iter().any(|aimed| matches!(aimed, Some(Aimed::Prop(..) | Aimed::Held(..)))) {
                     self.reacher.follow(&goal);
@@ -255,6 +309,17 @@ impl ReachSource {
         }
     }
 
+    /// Nearest that a hand and what it meets in flight come in the steps about now \[m\]; `None` for what does not fly.
+    fn misses_m(&self, frame: &Frame, side: usize, hand: &BodyState) -> Option<f64> {
+        let (Some(meets), Some(Aimed::Prop(_, offset))) = (&self.meets, self.aimed[side]) else { return None };
+        let prop = frame.prop(meets.prop)?;
+        let apart = prop.centre + offset - hand.centre;
+        let speed = prop.velocity - hand.velocity;
+        let about = MEETS_STEPS * self.step_secs;
+        let nearest_secs = (-apart.dot(speed) / speed.length_squared().max(1e-9)).clamp(-about, about);
+        Some((apart + speed * nearest_secs).length())
+    }
+
     /// The hands should have arrived: checks whether they have, and grasps. A hand that was hit arrives later.
     fn arrive(&mut self, frame: &Frame) -> Option<ReachArrival> {
         let is_late = std::mem::replace(&mut self.has_arrived, true);
@@ -267,9 +332,10 @@ impl ReachSource {
             let Some(target) = target else { continue };
             let node = HANDS[side];
             let gap_m = (character.part(node).centre - target).length();
+            let misses_m = self.misses_m(frame, side, character.part(node)).unwrap_or(gap_m);
             worst = worst.max(gap_m);
             let holds = match self.aimed[side] {
-                Some(Aimed::Prop(prop, _)) if self.order.grasp && is_reachable && gap_m < GRASP_M => Some(Held {
+                Some(Aimed::Prop(prop, _)) if self.order.grasp && is_reachable && misses_m < GRASP_M => Some(Held {
                     character: self.character,
                     node,
                     object: Entity::Prop(prop),

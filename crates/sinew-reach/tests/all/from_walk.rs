@@ -1,6 +1,7 @@
 //! Out of the middle of a walk.
 
 use crate::common::hand;
+use crate::common::motion::{apart_deg, frames, roughness};
 use glam::DVec3;
 use sinew_body::humanoid::{Person, Pose, Reduction};
 use sinew_motion::formats::{MotionFile, ReadOptions};
@@ -27,11 +28,19 @@ fn whoever_walks_goes_on_from_there_comes_to_stand_and_reaches() {
         let target = poses[1].hips_position + DVec3::new(-0.3, 0.4, 0.9);
         reacher.reach(&Goal { right: Some(target), ..Goal::default() });
         let end = reacher.done_secs();
+        let mut seen: Vec<Pose> = (frame - 3..frame).map(|at| reduction.pose(&clip.world(at))).collect();
+        seen.extend(frames(&reacher, 0.0));
+        assert!(apart_deg(&poses[1], &seen[3]) < 0.5, "frame {frame}: {}", apart_deg(&poses[1], &seen[3]));
+        let worst = roughness(&seen);
+        // Most phases stop below 6 m/s²; a foot that is just about to lift off behind has to come along.
+        assert!(worst.hips_m_s2 < 13.0, "frame {frame}: {worst:?}");
+        assert!(worst.head_deg_s < 400.0, "frame {frame}: {worst:?}");
+        // The walk's own knees turn by 5.9 degrees in a frame.
+        assert!(worst.knee_deg < 7.7, "frame {frame}: {worst:?}");
         let lowest = (0..240)
             .map(|at| reacher.pose_at(end * f64::from(at) / 240.0).hips_position.y)
             .fold(f64::INFINITY, f64::min);
-        // The balance and the feet that come down flat take a little.
-        assert!(off < 0.03, "frame {frame}: {off}");
+        assert!(off < 1e-3, "frame {frame}: {off}");
         let along = DVec3::new(velocity.x - walked.x, 0.0, velocity.z - walked.z).length();
         assert!(along < 0.05, "frame {frame}: {velocity} after {walked}");
         // Caught in a long step, the hips sink, by a quarter of a metre at most.

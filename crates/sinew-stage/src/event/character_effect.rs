@@ -56,6 +56,8 @@ pub enum CharacterEffect {
         steps: usize,
         /// Why it does not arrive; `None` if it does.
         fails: Option<Reason>,
+        /// Whether it takes longer than it was told to, because no body is that fast.
+        late: bool,
     },
     /// The reach ends.
     ReachEnds,
@@ -239,13 +241,16 @@ impl CharacterEffect {
             E::Transition { graph, from, to } => write!(f, "{who}: {graph}: from {from} to {to}"),
             E::Signal { signal } => write!(f, "{who} gets the signal {signal}"),
             E::LimbReaches { node, target } => write!(f, "{who}'s {} reaches for {target:.2}", node.part()),
-            E::Reaches { target, in_secs, steps, fails } => {
+            E::Reaches { target, in_secs, steps, fails, late } => {
                 write!(f, "{who} reaches for ")?;
                 match target {
                     ReachTarget::Object(name) => f.write_str(name)?,
                     ReachTarget::Point(point) => write!(f, "{point:.2}")?,
                 }
                 write!(f, " in {in_secs:.2} s")?;
+                if *late {
+                    f.write_str(", the least time that a body can")?;
+                }
                 match steps {
                     0 => {}
                     1 => f.write_str(", with a step")?,

@@ -1,6 +1,7 @@
 //! Everything that `sinew-stage` is held to, as one program.
 
 mod blend;
+mod catch;
 mod edit;
 mod edit_running;
 mod honours;

@@ -55,7 +55,7 @@ pub struct ReachJob {
     pub left: Option<DVec3>,
     /// The right hand's own target \[m\].
     pub right: Option<DVec3>,
-    /// Where the target goes; before the first point it is at `target`.
+    /// Where the target goes; before the first point it is at `target`, or, without one, at that point already.
     pub moving: Vec<MovingPoint>,
     /// What the arms keep clear of.
     pub avoid: Vec<Ball>,
@@ -113,7 +113,9 @@ pub enum ReachError {
     #[error(transparent)]
     Goal(#[from] MovingGoalError),
     /// Neither hand has a target.
-    #[error("nothing to reach; state ReachJob::target in metres: x to the left, y up, z forward")]
+    #[error(
+        "nothing to reach; state ReachJob::target in metres: x to the left, y up, z forward, or a first point of ReachJob::moving"
+    )]
     NoTarget,
     /// The clip ends before it is to be left.
     #[error("ReachJob::from_secs: the clip ends at {ends_secs:.2} s; leave it before, not at {from_secs} s")]
@@ -181,7 +183,7 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
     let hand = job.chosen_hand();
     let first = |side: usize| -> Option<DVec3> {
         let own = if side == 0 { job.left } else { job.right };
-        let of_one = || job.target.filter(|_| hand == side && job.left.is_none() && job.right.is_none());
+        let of_one = || job.first_target().filter(|_| hand == side && job.left.is_none() && job.right.is_none());
         own.or_else(of_one).map(world)
     };
     let mut reacher = Reacher::new(&body, &job.style, &start)?;
@@ -191,7 +193,7 @@ pub fn reach(job: &ReachJob, clip: Option<&MotionFile>) -> Result<Reached, Reach
     });
     reacher.set_obstacles(&obstacles.collect::<Vec<_>>());
     let goal = Goal { left: first(0), right: first(1) };
-    let begin = job.target.or(job.right).or(job.left).unwrap_or_default();
+    let begin = job.first_target().or(job.right).or(job.left).unwrap_or_default();
     let waypoint =
         |to: &MovingPoint| Waypoint { shift: DQuat::from_rotation_y(facing_rad) * (to.at - begin), secs: to.secs };
     let goal = MovingGoal::new(goal, job.moving.iter().map(waypoint).collect())?;
@@ -276,7 +278,7 @@ const TARGET_M: f64 = 0.045;
 impl ReachJob {
     fn check(&self) -> Result<(), ReachError> {
         self.style.check()?;
-        if [self.target, self.left, self.right].iter().all(Option::is_none) {
+        if [self.first_target(), self.left, self.right].iter().all(Option::is_none) {
             return Err(ReachError::NoTarget);
         }
         let Person { mass_kg, height_m } = self.person;
@@ -287,13 +289,20 @@ impl ReachJob {
         Ok(())
     }
 
+    /// The single target when it begins: the first point of a moving one that has no other.
+    fn first_target(&self) -> Option<DVec3> {
+        let moves =
+            || self.moving.first().filter(|_| self.left.is_none() && self.right.is_none()).map(|point| point.at);
+        self.target.or_else(moves)
+    }
+
     /// The hand of the single target.
     fn chosen_hand(&self) -> usize {
         match self.hand {
             Hand::Left => 0,
             Hand::Right => 1,
             // Most people are right-handed: what is straight ahead is the right hand's.
-            Hand::Auto => usize::from(self.target.is_none_or(|target| target.x < 0.06)),
+            Hand::Auto => usize::from(self.first_target().is_none_or(|target| target.x < 0.06)),
         }
     }
 }

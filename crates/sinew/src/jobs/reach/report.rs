@@ -16,6 +16,8 @@ pub struct ReachReport {
     pub hand_error_m: f64,
     /// From the start until the hand arrives \[s\].
     pub duration_s: f64,
+    /// Whether no body can be there in the time that was asked for; it takes the least that one can.
+    pub late: bool,
     /// The steps, in order.
     pub steps: Vec<StepReport>,
     /// Twist of the spine θ \[degrees about the upward axis\].
@@ -60,6 +62,7 @@ impl ReachReport {
             hands: (0..2).filter(|side| outcome.hands[*side]).map(|side| SIDES[side]).collect(),
             hand_error_m: meter.hand_error_m(),
             duration_s: outcome.arrives_secs - since_secs,
+            late: outcome.is_late,
             steps: steps
                 .map(|step| StepReport { foot: SIDES[step.side], kind: step.kind.name(), length_m: step.length_m })
                 .collect(),
@@ -82,6 +85,7 @@ impl ReachReport {
             None => format!("{hands} hand there within {:.2} mm in {:.2} s", self.hand_error_m * 1e3, self.duration_s),
             Some(reason) => format!("{hands} hand {:.3} m short: {reason}", self.hand_error_m),
         };
+        let late = if self.late { ", the least time that a body can" } else { "" };
         let margin = self.com_margin_m.map_or(String::new(), |margin| {
             format!(
                 "; centre of mass {:.0} mm {} its support",
@@ -90,7 +94,7 @@ impl ReachReport {
             )
         });
         format!(
-            "{end}; twist {:.0}°, swing {:.0}°, squat {:.2} m; {}{margin}",
+            "{end}{late}; twist {:.0}°, swing {:.0}°, squat {:.2} m; {}{margin}",
             self.twist_deg,
             self.swing_deg,
             self.squat_m,
