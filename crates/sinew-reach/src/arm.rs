@@ -16,6 +16,10 @@ pub(crate) struct Arm {
     pub bow: MinimumJerk<DVec3>,
     pub swivel: MinimumJerk<f64>,
     pub girdle: MinimumJerk<DVec3>,
+    /// Turn of the hand against the forearm at the target \[rad\].
+    pub wrist: MinimumJerk<DVec3>,
+    /// How far the carried upper arm is held away from the body \[rad\].
+    pub clear: MinimumJerk<f64>,
     /// Rotations of shoulder, upper arm, lower arm and hand while the arm is carried (does not reach).
     pub carried: [Carried; 4],
     /// Blend from a hand path to joint interpolation \[1\], and the rotations of upper and lower arm at its end.
@@ -34,7 +38,7 @@ pub(crate) struct Carried {
     home: DQuat,
 }
 
-snapshot!(Arm { share, target, bow, swivel, girdle, carried, by_joints, end, printed });
+snapshot!(Arm { share, target, bow, swivel, girdle, wrist, clear, carried, by_joints, end, printed });
 snapshot!(Carried { base, passes, home });
 
 /// Time for which a joint that is taken over while it moves keeps its speed, total, and the time in which it comes to
@@ -95,6 +99,8 @@ impl Arm {
             bow: rest,
             swivel: MinimumJerk::rest(0.0),
             girdle: rest,
+            wrist: rest,
+            clear: MinimumJerk::rest(0.0),
             carried: ARMS[side].map(|node| Carried::rest(pose.local(node))),
             by_joints: MinimumJerk::rest(0.0),
             end: [DQuat::IDENTITY; 2],
@@ -115,6 +121,8 @@ impl Arm {
             swivel: self.swivel.at(secs),
             pronation: 0.0,
             girdle: self.girdle.at(secs),
+            wrist: self.wrist.at(secs),
+            clear: self.clear.at(secs),
             carried: self.carried.map(|joint| joint.at(secs)),
             by_joints: self.by_joints.at(secs),
             end: self.end,
@@ -137,6 +145,7 @@ impl Arm {
         self.printed = None;
         self.share.go(now, 0.0, 0.0, lasts);
         self.girdle.go(now, DVec3::ZERO, 0.0, lasts);
+        self.clear.go(now, 0.0, 0.0, lasts);
         for joint in &mut self.carried[1..] {
             joint.go_home(now, lasts);
         }

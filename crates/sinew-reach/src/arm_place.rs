@@ -18,11 +18,10 @@ pub(crate) struct Carried {
     missing: [DVec3; 2],
 }
 
-/// Share of the trunk's bend by which carried arms keep hanging down \[1\].
-const HANGS: f64 = 0.75;
-
-/// Maximum angle by which they come forward, and less than half of it sideways: the shoulder's range \[rad\].
-const MAX_HANG_RAD: f64 = 1.1;
+/// How far carried arms, which keep hanging down as the trunk bends, come forward and back, outward, and across the trunk \[rad\].
+const MAX_HANG_RAD: f64 = 2.6;
+const MAX_OUTWARD_RAD: f64 = 1.8;
+const MAX_ACROSS_RAD: f64 = 0.3;
 
 /// An instant of the whole body in which one arm is replaced.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +36,7 @@ impl Frame {
     pub fn moment(&self, side: usize, now: &Now) -> Moment {
         let composed = self.compose(now);
         let mut arm = now.arms[side];
-        let hang = self.hang(&arm, composed.pose.world[Node::Chest.index()], now.swing);
+        let hang = self.hang(side, &arm, composed.pose.world[Node::Chest.index()], now.swing);
         arm.carried[1] = (hang * arm.carried[1]).normalize();
         Moment { arm, carried: self.carried(side, &arm).unwrap_or_default(), composed }
     }
@@ -50,11 +49,14 @@ impl Frame {
         self.place_arm(side, &moment.arm, &moment.carried, (chest_at, chest), &mut moment.composed);
     }
 
-    /// The rotation of a carried upper arm that keeps it hanging down, mostly, as the trunk bends.
-    pub fn hang(&self, arm: &ArmNow, chest: DQuat, swing: DVec3) -> DQuat {
+    /// The rotation of a carried upper arm that keeps it hanging down as the trunk bends, clear of the body.
+    pub fn hang(&self, side: usize, arm: &ArmNow, chest: DQuat, swing: DVec3) -> DQuat {
         let girdle = chest * arm.carried[0] * exp(arm.girdle);
-        let hang = girdle.conjugate() * swing * -HANGS;
-        exp(DVec3::new(soft(hang.x, MAX_HANG_RAD), 0.0, soft(hang.z, 0.4 * MAX_HANG_RAD)))
+        let hang = -(girdle.conjugate() * swing);
+        let outward = if side == 0 { 1.0 } else { -1.0 };
+        let aside = outward * hang.z;
+        let most = if aside > 0.0 { MAX_OUTWARD_RAD } else { MAX_ACROSS_RAD };
+        exp(DVec3::new(soft(hang.x, MAX_HANG_RAD), 0.0, outward * (soft(aside, most) + arm.clear)))
     }
 
     /// Upper and lower arm for a hand at a point, by the default rotation and a swivel.
@@ -80,12 +82,19 @@ impl Frame {
         Some(((exp(line * swivel) * turns.upper).normalize(), turns.lower))
     }
 
-    /// The arm at a target, its hand straight; `parent_from_node` of upper and lower arm.
-    pub fn arm_to(&self, side: usize, parent: (DVec3, DQuat), target: DVec3, swivel: f64) -> Option<(DQuat, DQuat)> {
+    /// The arm at a target, its hand turned against the forearm; `parent_from_node` of upper and lower arm.
+    pub fn arm_to(
+        &self,
+        side: usize,
+        parent: (DVec3, DQuat),
+        target: DVec3,
+        swivel: f64,
+        wrist: DVec3,
+    ) -> Option<(DQuat, DQuat)> {
         let line = target - parent.0;
         let distance = line.length().max(1e-9);
         let target = parent.0 + line * (self.within_reach(distance) / distance);
-        self.arm(side, parent, target, DQuat::IDENTITY, swivel, 0.0)
+        self.arm(side, parent, target, exp(wrist), swivel, 0.0)
     }
 
     /// Distances \[1 of the arm's length\] between which a hand arrives exactly.
@@ -155,7 +164,7 @@ impl Frame {
             let line = wanted - joint;
             let distance = line.length().max(1e-9);
             let wanted = joint + line * (self.within_reach(distance) / distance);
-            let turn = between(arm.carried[3], DQuat::IDENTITY, s);
+            let turn = between(arm.carried[3], exp(arm.wrist), s);
             let swivel = start.swivel + wrapped(arm.swivel - start.swivel) * s;
             let pronation = start.pronation + (arm.pronation - start.pronation) * s;
             if let Some((one, other)) = self.arm(side, (joint, girdle), wanted, turn, swivel, pronation) {

@@ -32,6 +32,10 @@ pub(crate) struct ArmNow {
     pub girdle: DVec3,
     /// `parent_from_node` of shoulder, upper arm, lower arm, hand while the arm is carried.
     pub carried: [DQuat; 4],
+    /// Turn of the hand against the forearm at the target \[rad\].
+    pub wrist: DVec3,
+    /// How far the carried upper arm is held away from the body \[rad\].
+    pub clear: f64,
     /// Blend from a path of the hand's position to joint interpolation \[1\], and upper and lower arm at its end.
     pub by_joints: f64,
     pub end: [DQuat; 2],
@@ -122,8 +126,8 @@ impl Frame {
         let mut composed =
             Composed { pose, hands: [DVec3::ZERO; 2], stretch: [0.0; 2], onto_toes: 0.0, shoulders: [DVec3::ZERO; 2] };
         let mut arms = now.arms;
-        for arm in &mut arms {
-            arm.carried[1] = (self.hang(arm, chest, now.swing) * arm.carried[1]).normalize();
+        for (side, arm) in arms.iter_mut().enumerate() {
+            arm.carried[1] = (self.hang(side, arm, chest, now.swing) * arm.carried[1]).normalize();
         }
         let carried = [0, 1].map(|side| self.carried(side, &arms[side]).unwrap_or_default());
         let flat = Heel::of(0.0, 0.0, now.tiptoe);

@@ -63,6 +63,7 @@ mod reacher_snapshot;
 mod rng;
 mod route;
 mod schedule;
+mod self_touch;
 mod sink;
 mod solve;
 mod spine;

@@ -132,6 +132,9 @@ impl Reacher {
         let side = if count == 1 { reaching.clone().next() } else { None };
         let errand = Errand { targets, side, middle, d, foot_choice: rng.unit(), near_choice: rng.unit() };
         let mut trial = self.best_trial(task, choice, &errand);
+        if !self.style.print {
+            trial.task.lay_hands(&mut trial.found);
+        }
         if self.manner != Manner::PLAIN {
             trial.task.swivelled(&mut trial.found);
         }
@@ -231,7 +234,16 @@ impl Reacher {
             (false, true) => step.length_m,
             (false, false) => step.length_m.min(room),
         };
-        let yaw_rad = here.yaw_rad + if is_far { turn } else { 0.35 * turn };
+        // What is behind is turned to, not twisted to.
+        let share = 0.35 + 0.65 * crate::head::smooth(turn.abs(), 0.7, 1.6);
+        let yaw_rad = here.yaw_rad
+            + if is_far {
+                turn
+            } else if print {
+                0.35 * turn
+            } else {
+                share * turn
+            };
         let to = Stance { middle: here.middle + direction * length, yaw_rad, ..here };
         Some(Walk { to, first: first_foot(turn, errand.side, errand.foot_choice), kind: step.kind })
     }

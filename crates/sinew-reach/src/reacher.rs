@@ -95,7 +95,7 @@ impl Reacher {
         let arms = [0, 1].map(|side| Arm::carried(side, &start.pose));
         let mut reacher = Reacher {
             rng: Rng::new(style.seed),
-            manner: if style.print { Manner::PLAIN } else { Manner::of(style.seed) },
+            manner: if style.print { Manner::PLAIN } else { Manner::of(style.manner_seed.unwrap_or(style.seed)) },
             now_secs: 0.0,
             feet,
             twist: MinimumJerk::rest(0.0),
@@ -269,7 +269,7 @@ impl Reacher {
             let controls = self.now(secs);
             let pose = self.frame.compose(&controls).pose;
             [0, 1].map(|side| {
-                let hang = self.frame.hang(&controls.arms[side], pose.world[Node::Chest.index()], controls.swing);
+                let hang = self.frame.hang(side, &controls.arms[side], pose.world[Node::Chest.index()], controls.swing);
                 let swing = self.arms[side].at(secs).carried[1] * controls.arms[side].carried[1].conjugate();
                 let [_, upper, lower, hand] = ARMS[side].map(|node| pose.local(node));
                 [swing * hang.conjugate() * upper, lower, hand]
@@ -316,7 +316,7 @@ impl Reacher {
         (now.heels, now.walks, now.heel_off) = (1.0, 0.0, [0.0; 2]);
         now.look_at = middle_of(targets);
         let feet = self.feet.last();
-        Task { frame: &self.frame, style: &self.style, manner: &self.manner, now, targets }
+        Task { frame: &self.frame, style: &self.style, manner: &self.manner, minds_touch: true, now, targets }
             .stance(&feet, self.feet.supports_of(&feet))
     }
 }

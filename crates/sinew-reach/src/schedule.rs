@@ -6,11 +6,19 @@ use crate::head::look;
 use crate::minimum_jerk::MinimumJerk;
 use crate::plan::Decision;
 use crate::reacher::Reacher;
+use crate::solve::Aim;
 use crate::timing::{LEANS_SECS, Timing};
 use sinew_body::humanoid::Node;
 
+/// How far carried arms are held away from the body \[rad\], and in what time \[s\].
+const CLEAR_RAD: f64 = 0.15;
+const CLEARS_SECS: f64 = 0.5;
+
+/// A bend of less than this \[rad\] is none.
+const BARELY: f64 = 0.1;
+
 /// Share of a squat's time in which the weight moves over the toes \[1\].
-const LEANS_FIRST: f64 = 0.75;
+const LEANS_FIRST: f64 = 0.55;
 
 /// Speed at which the head follows what it faces, beside that at which it turns there \[1\]: the two may add up.
 const HEAD_FOLLOWS: f64 = 0.65;
@@ -28,17 +36,21 @@ impl Reacher {
         let waits = if self.style.print { from(timing.arm) } else { self.manner.gaze_secs };
         self.turn_head(decision, composed, now, waits, &timing);
         self.twist.go(now, aim.twist, from(timing.arm), timing.twist);
+        let clear = self.clearance(decision.walk.is_some(), aim);
         for side in 0..2 {
             let reaches = decision.targets[side].is_some();
             let arm = &mut self.arms[side];
             arm.printed = None;
             if !reaches {
                 arm.let_go(now, from(timing.end));
+                arm.clear.go(now, clear, 0.0, CLEARS_SECS);
                 continue;
             }
+            arm.clear.go(now, clear, 0.0, CLEARS_SECS);
             arm.girdle.go(now, aim.arms[side].girdle, from(timing.arm), arms_secs);
             arm.share.go_early(now, 1.0, from(timing.arm), arms_secs);
             (arm.swivel, arm.bow) = (MinimumJerk::rest(aim.arms[side].swivel), MinimumJerk::rest(decision.bow[side]));
+            arm.wrist = MinimumJerk::rest(aim.arms[side].wrist);
             arm.by_joints = MinimumJerk::rest(0.0);
             if self.style.print {
                 let speed = self.style.speed_m_s.unwrap_or(PRINTED_SPEED_M_S);
@@ -85,6 +97,7 @@ impl Reacher {
             let arm = &mut self.arms[side];
             arm.swivel.go(now, aim.arms[side].swivel, 0.0, lasts);
             arm.girdle.go(now, aim.arms[side].girdle, 0.0, lasts);
+            arm.wrist.go(now, aim.arms[side].wrist, 0.0, lasts);
             if arm.share.end_secs() > now {
                 let left = (arm.share.end_secs() - now).max(landed - now);
                 arm.share.go(now, 1.0, 0.0, left);
@@ -96,6 +109,12 @@ impl Reacher {
         let is_late = self.outcome.is_late;
         self.outcome = decision.outcome(arrives.max(landed), &self.steps);
         self.outcome.is_late = is_late;
+    }
+
+    /// How far carried arms are held away from a body that walks or bends \[rad\]: thighs come up beside them.
+    fn clearance(&self, walks: bool, aim: &Aim) -> f64 {
+        let bends = aim.swing.length() + aim.squat / self.frame.values.leg_m;
+        if self.style.print || !walks && bends < BARELY { 0.0 } else { CLEAR_RAD }
     }
 
     /// Takes the strides of a plan over.

@@ -28,6 +28,8 @@ pub(crate) struct Aim {
 pub(crate) struct ArmAim {
     pub swivel: f64,
     pub girdle: DVec3,
+    /// Turn of the hand against the forearm.
+    pub wrist: DVec3,
 }
 
 /// The cost of an aim.
@@ -38,6 +40,8 @@ pub(crate) struct Judged {
     pub gap_m: f64,
     /// Sum of the joints' excess over the narrowed limits \[rad\].
     pub excess_rad: f64,
+    /// How deep reaching forearms are in trunk, thighs and head, beyond what is put up with \[m\].
+    pub inside_m: f64,
     /// Excess of the upper arms over their comfortable range \[rad\].
     unease_rad: f64,
     cost: f64,
@@ -49,6 +53,8 @@ pub(crate) struct Task<'a> {
     pub frame: &'a Frame,
     pub style: &'a Style,
     pub manner: &'a Manner,
+    /// Whether arms keep out of the rest of the body.
+    pub minds_touch: bool,
     /// The instant with the stance in it, trunk straight.
     pub now: Now,
     pub targets: [Option<DVec3>; 2],
@@ -77,6 +83,7 @@ impl Task<'_> {
         for side in 0..2 {
             let arm = &mut now.arms[side];
             (arm.swivel, arm.girdle) = (aim.arms[side].swivel, aim.arms[side].girdle);
+            arm.wrist = aim.arms[side].wrist;
             if let Some(target) = self.targets[side] {
                 (arm.share, arm.target) = (1.0, target);
             }
@@ -109,6 +116,11 @@ impl Task<'_> {
             })
             .sum();
         let scale = self.values().arm_m;
+        let inside_m = if self.style.print || !self.minds_touch {
+            0.0
+        } else {
+            self.frame.arms_inside_m(&composed, self.targets, self.now.support[0].centre.y)
+        };
         let elbows: f64 = aim.arms.iter().map(|arm| (arm.swivel - USUAL_SWIVEL) * (arm.swivel - USUAL_SWIVEL)).sum();
         let effort = 0.12 * aim.twist * aim.twist
             + 0.04 * aim.swing.length_squared()
@@ -122,7 +134,8 @@ impl Task<'_> {
             + (aim.tiptoe - MAX_TIPTOE_RAD).max(0.0)
             + (-aim.tiptoe).max(0.0);
         let cost = 40.0 * gaps / scale + 30.0 * excess_rad + 8.0 * strain + 0.3 * unease_rad + effort + 100.0 * beyond;
-        Judged { composed, gap_m, excess_rad, unease_rad, cost }
+        let cost = cost + 12.0 * inside_m / scale;
+        Judged { composed, gap_m, excess_rad, inside_m, unease_rad, cost }
     }
 
     /// The paper's rules: twist by search, squat by the stoop range, swing until the hand reaches.
@@ -224,6 +237,28 @@ impl Task<'_> {
         (twist + looks + self.manner.twist_rad).clamp(-most, most)
     }
 
+    /// Hands whose fingers would be in the floor bend at the wrist.
+    pub fn lay_hands(&self, (aim, judged): &mut (Aim, Judged)) {
+        let floor = self.now.support[0].centre.y;
+        for side in 0..2 {
+            let Some(target) = self.targets[side] else { continue };
+            if target.y - floor > NEAR_FLOOR_M || judged.inside_m <= 0.0 {
+                continue;
+            }
+            let mut best = (*aim, *judged);
+            for angle in WRISTS_RAD {
+                let mut other = *aim;
+                other.arms[side].wrist = DVec3::Z * angle;
+                let there = self.judge(&other);
+                if there.cost < best.1.cost {
+                    best = (other, there);
+                }
+            }
+            self.better(&mut best);
+            (*aim, *judged) = best;
+        }
+    }
+
     /// The elbow where the manner has it, or as near to that as the joints allow.
     pub fn swivelled(&self, (aim, judged): &mut (Aim, Judged)) {
         for share in SWIVELS {
@@ -233,7 +268,10 @@ impl Task<'_> {
                 other.arms[side].swivel += outward * share * self.manner.swivel_rad;
             }
             let there = self.judge(&other);
-            if there.excess_rad <= judged.excess_rad && there.gap_m <= judged.gap_m.max(EXACT_M) {
+            if there.excess_rad <= judged.excess_rad
+                && there.inside_m <= judged.inside_m
+                && there.gap_m <= judged.gap_m.max(EXACT_M)
+            {
                 (*aim, *judged) = (other, there);
                 return;
             }
@@ -259,7 +297,7 @@ impl Task<'_> {
     pub fn ruled(&self) -> (Aim, Judged) {
         let mut aim = self.by_rule();
         let mut judged = self.judge(&aim);
-        if judged.excess_rad > 0.0 || judged.unease_rad > 0.0 {
+        if judged.excess_rad > 0.0 || judged.unease_rad > 0.0 || judged.inside_m > 0.0 {
             self.swivel_arms(&mut aim, &mut judged);
         }
         (aim, judged)
@@ -270,8 +308,21 @@ impl Task<'_> {
         let is_strained = (0..2).any(|side| {
             self.targets[side].is_some() && judged.composed.stretch[side] > self.values().stretch.0 + 0.005
         });
-        if judged.gap_m > EXACT_M || judged.excess_rad > 0.0 || (is_strained && !self.style.print) {
+        if judged.gap_m > EXACT_M
+            || judged.excess_rad > 0.0
+            || judged.inside_m > 0.0
+            || (is_strained && !self.style.print)
+        {
             self.search(aim, judged);
+        }
+        if self.minds_touch && judged.gap_m > EXACT_M {
+            // Arriving comes first.
+            let task = Task { minds_touch: false, ..*self };
+            let mut other = task.ruled();
+            task.better(&mut other);
+            if other.1.gap_m < judged.gap_m - 1e-5 {
+                (*aim, *judged) = (other.0, self.judge(&other.0));
+            }
         }
     }
 
@@ -282,7 +333,7 @@ impl Task<'_> {
             let mut best = (f64::INFINITY, aim.arms[side].swivel);
             for index in -9..=9 {
                 let swivel = USUAL_SWIVEL + f64::from(index) * 0.2;
-                let price = self.price_of_arm(&judged.composed, side, swivel);
+                let price = self.price_of_arm(&judged.composed, side, swivel, aim.arms[side].wrist);
                 if price < best.0 {
                     best = (price, swivel);
                 }
@@ -296,11 +347,11 @@ impl Task<'_> {
     }
 
     /// The cost of a swivel for a given posture of the rest of the body, as in [`Task::judge`].
-    fn price_of_arm(&self, composed: &Composed, side: usize, swivel: f64) -> f64 {
+    fn price_of_arm(&self, composed: &Composed, side: usize, swivel: f64, wrist: DVec3) -> f64 {
         let [shoulder, upper, lower, _] = ARMS[side];
         let Some(target) = self.targets[side] else { return 0.0 };
         let parent = (composed.shoulders[side], composed.pose.world[shoulder.index()]);
-        let Some((one, other)) = self.frame.arm_to(side, parent, target, swivel) else { return f64::INFINITY };
+        let Some((one, other)) = self.frame.arm_to(side, parent, target, swivel, wrist) else { return f64::INFINITY };
         let excess = self.frame.tight.link(upper).limit.excess(one) + self.frame.tight.link(lower).limit.excess(other);
         let unease = self.frame.easy.link(upper).limit.excess(one);
         30.0 * excess + 0.3 * unease + 0.01 * (swivel - USUAL_SWIVEL) * (swivel - USUAL_SWIVEL)
@@ -311,7 +362,7 @@ impl Task<'_> {
         let yaw = self.now.support[0].yaw_rad + aim.twist;
         let mut steps = [1.0; COORDINATES];
         let mut evaluations = 0;
-        let is_done = |judged: &Judged| judged.gap_m <= EXACT_M && judged.excess_rad <= 0.0;
+        let is_done = |judged: &Judged| judged.gap_m <= EXACT_M && judged.excess_rad <= 0.0 && judged.inside_m <= 0.0;
         while evaluations < MAX_EVALUATIONS && steps.iter().any(|step: &f64| step.abs() > MIN_STEP) {
             for coordinate in 0..COORDINATES {
                 if steps[coordinate].abs() <= MIN_STEP {
@@ -373,6 +424,10 @@ const SWING_HALVINGS: usize = 3;
 /// Share of a gaze shift that the chest takes \[1\], up to what is looked at over the shoulder \[rad\].
 const CHEST_SHARE: f64 = 1.0 / 6.0;
 const LOOKS_BEHIND_RAD: f64 = 1.9;
+
+/// Below this height a hand may reach into the floor \[m\]; turns of the wrist that are tried \[rad\].
+const NEAR_FLOOR_M: f64 = 0.2;
+const WRISTS_RAD: [f64; 6] = [0.4, -0.4, 0.75, -0.75, 1.05, -1.05];
 
 /// Shares of a manner's swivel that are tried.
 const SWIVELS: [f64; 3] = [1.0, 0.5, -0.5];

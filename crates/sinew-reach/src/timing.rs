@@ -16,6 +16,13 @@ const SHIFTS_SECS: f64 = 0.15;
 /// A bend \[rad\] or a sinking of less than this \[1 of the leg\] is not waited for.
 const BARELY: f64 = 0.02;
 
+/// A twist of less than this does not count for the least time \[rad\].
+const TURNS_RAD: f64 = 0.3;
+
+/// Who turns by more than this \[rad\] reaches out so long before the last foot lands \[s\].
+const ROUND_RAD: f64 = 1.2;
+const BEFORE_LANDING_SECS: f64 = 0.3;
+
 /// Share of r_st in a walk of several strides \[1\].
 const WALKING_OVERLAP: f64 = 0.4;
 
@@ -82,6 +89,11 @@ impl Reacher {
             let share = if strides.len() > 2 { WALKING_OVERLAP } else { 1.0 };
             let overlap = self.style.overlap_step * (landed - from);
             (arm, bends) = (from + share * overlap, from + overlap);
+            // Who turns round has the target before it first.
+            let turned = walk.to.yaw_rad - self.feet.support(now).yaw_rad;
+            if crate::spine::wrapped(turned).abs() > ROUND_RAD {
+                arm = arm.max(landed - BEFORE_LANDING_SECS * pace);
+            }
             walked = Some((feet, steps));
         }
         let turn = (decision.aim.twist - self.twist.at(now)).abs();
@@ -101,7 +113,7 @@ impl Reacher {
         let swings = pace * (0.45 + (bend / 1.7).max(sink / 0.42).max(leans + rise / 1.3));
         let hands = self.hands_secs(decision, composed);
         let bends = bend.max(sink).max(rise) > BARELY;
-        if bends || turn > BARELY {
+        if bends || turn > TURNS_RAD {
             least_pace = least_pace.max(1.0 / QUICKEST_BEND);
         }
         if !self.style.print {

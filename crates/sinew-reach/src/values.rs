@@ -27,6 +27,8 @@ pub struct Style {
     pub print: bool,
     /// Seed of all random choices, read once, by [`Reacher::new`](crate::Reacher::new). Default 0.
     pub seed: u64,
+    /// Seed of the manner: pace, elbow, trunk, gaze and path, read at the same time; 0 is the plain one. Default `None`: as `seed`.
+    pub manner_seed: Option<u64>,
 }
 
 sinew_snapshot::snapshot!(Style {
@@ -38,6 +40,7 @@ sinew_snapshot::snapshot!(Style {
     head_speed_rad_s,
     print,
     seed,
+    manner_seed,
 });
 
 impl Default for Style {
@@ -51,6 +54,7 @@ impl Default for Style {
             head_speed_rad_s: 2.5,
             print: false,
             seed: 0,
+            manner_seed: None,
         }
     }
 }

@@ -38,6 +38,8 @@ impl Stage {
             speed_m_s: order.speed_m_s.filter(|_| order.time_secs.is_none()),
             time_secs: order.time_secs,
             seed: self.scene.stage.seed.wrapping_add(index.slot() as u64),
+            // The first character of a scene that states no seed does it plainly.
+            manner_seed: Some(self.scene.stage.seed.wrapping_add(index.slot() as u64).wrapping_sub(1)),
             ..Style::default()
         };
         if self.actor(index)?.sources.reach().is_some_and(|reach| reach.is_about(order)) {
