@@ -93,7 +93,7 @@ impl Frame {
     ) -> Option<(DQuat, DQuat)> {
         let line = target - parent.0;
         let distance = line.length().max(1e-9);
-        let target = parent.0 + line * (self.within_reach(distance) / distance);
+        let target = parent.0 + line * (self.within_reach(side, exp(wrist), distance) / distance);
         self.arm(side, parent, target, exp(wrist), swivel, 0.0)
     }
 
@@ -104,8 +104,11 @@ impl Frame {
 
     /// Soft clamp of the distance from shoulder to hand \[m\]: below full extension, where the arm would snap straight,
     /// and above what the folded arm allows.
-    fn within_reach(&self, distance: f64) -> f64 {
-        let arm = self.values.arm_m;
+    fn within_reach(&self, side: usize, hand: DQuat, distance: f64) -> f64 {
+        // A hand that is bent at the wrist reaches less far.
+        let offset = |node: Node| self.body.link(node).offset;
+        let lower = offset(ARMS[side][3]) + hand * self.effector[side];
+        let arm = offset(ARMS[side][2]).length() + lower.length();
         let (far, most) = (self.values.stretch.1 * arm, 0.988 * arm);
         let (near, least) = (1.2 * self.folded_m, 1.03 * self.folded_m);
         if distance > far {
@@ -127,7 +130,7 @@ impl Frame {
         let wrist = upper_turn * self.body.link(ARMS[side][2]).offset + lower * self.body.link(ARMS[side][3]).offset;
         let at = wrist + lower * hand_turn * self.effector[side];
         let distance = at.length().max(1e-9);
-        let at = at * (self.within_reach(distance) / distance);
+        let at = at * (self.within_reach(side, hand_turn, distance) / distance);
         let pronation = swing_twist(lower_turn).2;
         let (usual, bent) = self.arm(side, (DVec3::ZERO, DQuat::IDENTITY), at, hand_turn, 0.0, pronation)?;
         let line = at.try_normalize()?;
@@ -163,8 +166,8 @@ impl Frame {
             let wanted = carried + (arm.target - carried) * s + arm.bow * bowed;
             let line = wanted - joint;
             let distance = line.length().max(1e-9);
-            let wanted = joint + line * (self.within_reach(distance) / distance);
             let turn = between(arm.carried[3], exp(arm.wrist), s);
+            let wanted = joint + line * (self.within_reach(side, turn, distance) / distance);
             let swivel = start.swivel + wrapped(arm.swivel - start.swivel) * s;
             let pronation = start.pronation + (arm.pronation - start.pronation) * s;
             if let Some((one, other)) = self.arm(side, (joint, girdle), wanted, turn, swivel, pronation) {

@@ -427,7 +427,7 @@ const LOOKS_BEHIND_RAD: f64 = 1.9;
 
 /// Below this height a hand may reach into the floor \[m\]; turns of the wrist that are tried \[rad\].
 const NEAR_FLOOR_M: f64 = 0.2;
-const WRISTS_RAD: [f64; 6] = [0.4, -0.4, 0.75, -0.75, 1.05, -1.05];
+const WRISTS_RAD: [f64; 4] = [0.3, -0.3, 0.5, -0.5];
 
 /// Shares of a manner's swivel that are tried.
 const SWIVELS: [f64; 3] = [1.0, 0.5, -0.5];
