@@ -315,7 +315,7 @@ impl Task<'_> {
         {
             self.search(aim, judged);
         }
-        if self.minds_touch && judged.gap_m > EXACT_M {
+        if self.minds_touch && judged.gap_m > EXACT_M && judged.gap_m < NEARLY_M {
             // Arriving comes first.
             let task = Task { minds_touch: false, ..*self };
             let mut other = task.ruled();
@@ -424,6 +424,9 @@ const SWING_HALVINGS: usize = 3;
 /// Share of a gaze shift that the chest takes \[1\], up to what is looked at over the shoulder \[rad\].
 const CHEST_SHARE: f64 = 1.0 / 6.0;
 const LOOKS_BEHIND_RAD: f64 = 1.9;
+
+/// A gap that may be left by what keeps arms out of the body \[m\]; larger ones are the target's.
+const NEARLY_M: f64 = 0.05;
 
 /// Below this height a hand may reach into the floor \[m\]; turns of the wrist that are tried \[rad\].
 const NEAR_FLOOR_M: f64 = 0.2;
