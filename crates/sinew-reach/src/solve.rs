@@ -124,7 +124,7 @@ impl Task<'_> {
         let elbows: f64 = aim.arms.iter().map(|arm| (arm.swivel - USUAL_SWIVEL) * (arm.swivel - USUAL_SWIVEL)).sum();
         let effort = 0.12 * aim.twist * aim.twist
             + 0.04 * aim.swing.length_squared()
-            + 0.3 / (self.style.flexibility * self.style.flexibility) * (aim.squat / scale) * (aim.squat / scale)
+            + 0.3 / libm::pow(self.style.flexibility, 4.0) * (aim.squat / scale) * (aim.squat / scale)
             + 0.5 * aim.lean.length_squared() / (scale * scale)
             + 0.5 * aim.tiptoe * aim.tiptoe
             + 0.01 * elbows;
@@ -134,7 +134,7 @@ impl Task<'_> {
             + (aim.tiptoe - MAX_TIPTOE_RAD).max(0.0)
             + (-aim.tiptoe).max(0.0);
         let cost = 40.0 * gaps / scale + 30.0 * excess_rad + 8.0 * strain + 0.3 * unease_rad + effort + 100.0 * beyond;
-        let cost = cost + 12.0 * inside_m / scale;
+        let cost = cost + 7.0 * inside_m / scale;
         Judged { composed, gap_m, excess_rad, inside_m, unease_rad, cost }
     }
 
@@ -401,7 +401,7 @@ impl Task<'_> {
             0 => other.twist = (aim.twist + 0.2 * by).clamp(-most_twist, most_twist),
             1 => other.swing += across * (0.2 * by),
             2 => other.swing += along * (0.2 * by),
-            3 => other.squat += 0.08 * leg * by,
+            3 => other.squat += 0.08 * leg * by * self.style.flexibility.min(1.0),
             4 => other.lean += along * (0.03 * leg * by),
             5 => other.lean += across * (0.03 * leg * by),
             6 if self.frame.has_heels => other.tiptoe = (aim.tiptoe + 0.2 * by).max(0.0),
