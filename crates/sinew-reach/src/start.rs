@@ -106,7 +106,8 @@ impl Reacher {
             let hinge = own.world[lower.index()] * DVec3::X;
             // A bent knee shows its axis better than the lower leg's own.
             let bend = (at[lower.index()] - at[upper.index()]).cross(at[foot.index()] - at[lower.index()]);
-            let bend = bend / self.frame.values.leg_m.powi(2) * 4.0;
+            let leg_m = self.frame.values.leg_m;
+            let bend = bend * (4.0 / (leg_m * leg_m));
             let hinge = bend * bend.dot(hinge).signum() + hinge * 0.02;
             let across = line.cross(hinge.normalize_or(DVec3::X));
             let yaw = libm::atan2(across.x, across.z);
