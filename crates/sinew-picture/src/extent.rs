@@ -8,7 +8,7 @@ use crate::{Arrow, Figure, Hit, Panel, View, floor};
 
 /// Objects count as far as they lie within this of the body \[m\]: a prop far away may leave the picture, or the body would be
 /// small.
-const NEAR_OBJECTS_M: f64 = 0.9;
+const NEAR_OBJECTS_M: f64 = 0.6;
 /// A ghost farther away may leave the picture, likewise \[m\].
 const NEAR_GHOST_M: f64 = 0.85;
 
