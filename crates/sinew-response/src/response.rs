@@ -86,6 +86,7 @@ struct State {
     ground: DVec3,
     ground_acceleration: DVec3,
     torque_before: Option<Coordinates24>,
+    aim_before: Coordinates24,
     load_before: Coordinates24,
     /// Frames since the latest perturbation.
     since_push: Option<usize>,
@@ -107,6 +108,7 @@ snapshot!(State {
     ground,
     ground_acceleration,
     torque_before,
+    aim_before,
     load_before,
     since_push,
 });
@@ -145,6 +147,7 @@ impl State {
             ground: DVec3::ZERO,
             ground_acceleration: DVec3::ZERO,
             torque_before: None,
+            aim_before: [0.0; UPPER_DOFS],
             load_before: [0.0; UPPER_DOFS],
             since_push: None,
         }
@@ -168,7 +171,7 @@ impl Response {
             damps_relative: weights.damps_relative,
         };
         Response {
-            objective: Objective::new(upper.tree(), basis.dynamic(&settings), &weighing),
+            objective: Objective::new(upper.tree(), &basis.dynamic(&settings), &weighing),
             limits: Limits::of(&body),
             mass_kg,
             upper,
@@ -260,7 +263,10 @@ impl Response {
         }
 
         let reflex = state.reflex(&load, ground, self.mass_kg, dt);
-        let torque_before = state.torque_before.unwrap_or(torque);
+        // Muscles go on with the input's own torque: what it changes by from frame to frame is noise, twice differentiated.
+        let torque_before = state
+            .torque_before
+            .map_or(torque, |before| std::array::from_fn(|dof| before[dof] + (aim[dof] - state.aim_before[dof])));
         rows.clear();
         if !tasks.is_empty() {
             // On ground at rest, the frame of the tasks.
@@ -319,7 +325,7 @@ impl Response {
         (state.hips_before, state.hips_turn) = (hips_position, hips_turn);
         (state.ground_before, state.ground) = (state.ground, ground_next);
         state.shown = shown;
-        state.torque_before = Some(torque_now);
+        (state.torque_before, state.aim_before) = (Some(torque_now), *aim);
         state.output = posed(body, &next, &state.turned, &shown, ground_next);
         state.input = next;
         report

@@ -41,7 +41,8 @@ pub enum Coordinates {
 pub struct Settings {
     /// The preset. Default [`Preset::Robust`].
     pub preset: Preset,
-    /// Number of coordinates under dynamics, k: 0 to 24. Default 10, as in the paper, which uses 5 for slow forms.
+    /// Number of coordinates under dynamics, k: 0 to 24. Default 10, as in the paper, which uses 5 for slow forms. In the robust
+    /// preset the spectrum fades out about the k-th, within two coordinates.
     pub k: usize,
     /// Which coordinates. Default [`Coordinates::Low`], the only choice of the robust preset.
     pub coordinates: Coordinates,

@@ -16,9 +16,9 @@ const STATE: usize = 2 * UPPER_DOFS;
 /// Size of the trial deviations \[rad\]: far below where the response bends, far above rounding.
 const TRIAL: f64 = 1e-6;
 
-/// Maximum growth of small deviations in a second at which a compliance is accepted: from 20 degrees to 2 in five
-/// seconds.
-const GROWTH_PER_SECOND: f64 = 0.65;
+/// Maximum growth of small deviations in a second at which a compliance is accepted: from 20 degrees to 2 in two and
+/// a half seconds, so that what the stretches do not show of a long motion is covered.
+const GROWTH_PER_SECOND: f64 = 0.4;
 
 /// Poses in one stretch of a long motion: about a stride.
 const STRETCH: usize = 72;
