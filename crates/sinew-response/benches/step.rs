@@ -48,7 +48,7 @@ struct Case<S: Real> {
     q: Vec<Numbers<S>>,
     rate: Vec<Numbers<S>>,
     deviation: Vec<Numbers<S>>,
-    input_step: Vec<Numbers<S>>,
+    coast: Vec<Numbers<S>>,
     aim: Vec<Numbers<S>>,
 }
 
@@ -75,22 +75,21 @@ impl<S: Real> Case<S> {
             dynamics: S::splat(if kind == Kind::Hard { f64::INFINITY } else { 6.7 }),
             stiffness: [S::splat(passive * passive * 0.1); UPPER_DOFS],
             damping: [S::splat(2.0 * passive * 0.1); UPPER_DOFS],
-            damps_relative: kind != Kind::Hard,
         };
         let objective = Objective::new(&tree, &directions(&mut random), &weighing);
         let mut several = |scale: f64| -> Vec<Numbers<S>> {
             (0..STATES).map(|_| std::array::from_fn(|_| S::from_lanes(|_| random.next() * scale))).collect()
         };
         let (q, rate) = (several(0.8), several(2.0));
-        let (deviation, input_step, aim) = (several(0.05), several(0.03), several(20.0));
-        Case { tree, coordinates, base, objective, q, rate, deviation, input_step, aim }
+        let (deviation, coast, aim) = (several(0.05), several(0.03), several(20.0));
+        Case { tree, coordinates, base, objective, q, rate, deviation, coast, aim }
     }
 
     fn frame<'a>(&'a self, i: usize, out: &'a Inverse<S>, kind: Kind) -> Frame<'a, S> {
         Frame {
             mass: out.mass.as_slice().as_chunks().0.first_chunk().expect("24 rows"),
             deviation: &self.deviation[i],
-            input_step: &self.input_step[i],
+            coast: &self.coast[i],
             torque: out.tau.first_chunk().expect("24 torques"),
             aim: &self.aim[i],
             reflex: (kind == Kind::Reflex).then_some((&self.aim[i], S::splat(1.0 / 30.0))),

@@ -13,7 +13,7 @@ const TORQUE_CUTOFF_HZ: f64 = 3.0;
 
 /// Angular accelerations \[rad/s²\] that capture does not tell from rest. A direction in which the motion uses no more torque than
 /// they would need is as little used as any: without them noise decides which of two idle joints is the idler.
-const UNTOLD_RAD_PER_S2: f64 = 4.0;
+const UNTOLD_RAD_PER_S2: f64 = 6.0;
 
 /// Over how many neighbours on each side of the k-th direction its place in the spectrum is averaged.
 const EDGE: usize = 3;
@@ -22,7 +22,7 @@ const EDGE: usize = 3;
 const STEEP: f64 = 3.0;
 
 /// How many directions beyond the k-th still have a weight.
-const FURTHER: usize = 2;
+const FURTHER: usize = 4;
 
 /// Why a basis cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

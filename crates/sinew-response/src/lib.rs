@@ -34,6 +34,7 @@
 mod basis;
 mod deflection;
 mod force;
+mod head;
 mod hips;
 mod input;
 mod limits;

@@ -7,7 +7,7 @@
 //! | row | objective |
 //! |---|---|
 //! | w1 (δ + y) | EQ3: follow the input |
-//! | w2 y / dt | EQ4: damp velocity, relative to the input's |
+//! | w2 (y - c) / dt | EQ4: damp velocity; c is the step that undamped joints would make |
 //! | w3 / dt · Ěᵀ(A y + u₀ − u₋) | EQ5: for a while after a push muscles hold their torque |
 //! | wc Êᵀ(A y + u₀ − ū + K(δ + y) + D y / dt) | EQ2: dynamics in the near-unactuated coordinates |
 //! | w (j y − t) | further objectives of this step, see [`Row`] |
@@ -51,8 +51,6 @@ pub struct Weighing<S: Real> {
     pub stiffness: [S; N],
     /// D \[N m s/rad\].
     pub damping: [S; N],
-    /// Whether EQ4 damps velocity relative to the input's.
-    pub damps_relative: bool,
 }
 
 /// The objectives of one body and basis: the part that is constant over frames.
@@ -70,7 +68,6 @@ pub struct Objective<S: Real> {
     damp: Vector<S>,
     /// 1 / B without reflex and holds.
     inverse: Vector<S>,
-    damps_relative: bool,
     /// 1 / wc².
     softness: S,
     time_step_secs: f64,
@@ -84,15 +81,17 @@ pub struct Frame<'a, S: Real> {
     pub mass: &'a [[S; N]; N],
     /// δ: deviation from the input now \[rad\].
     pub deviation: &'a [S; N],
-    /// The input's own step, in the coordinates of the deviated joints \[rad\]: what absolute damping acts on.
-    pub input_step: &'a [S; N],
+    /// c: the step to which damping draws \[rad\]. Zero damps the deviation's velocity; the input's step taken back damps the
+    /// joint's own, as printed; a part of the last step lets it swing.
+    pub coast: &'a [S; N],
     /// u₀ \[N m\].
     pub torque: &'a [S; N],
     /// Target torque of the constraint: ū, or zero \[N m\].
     pub aim: &'a [S; N],
     /// u₋, torque of the frame before \[N m\], and w3 now \[s/(N m)\]; while a reflex is pending.
     pub reflex: Option<(&'a [S; N], S)>,
-    /// Which coordinates are held (1, else 0), and their step \[rad\]: joints that have reached their limit.
+    /// How firmly coordinates are held, and their step \[rad\]: 1 for those of joints that have reached their limit, less for
+    /// those that are only drawn to it (times 1e6 it is a weight \[1/rad\], squared), 0 for none.
     pub held: Option<(&'a [S; N], &'a [S; N])>,
     /// Further objectives.
     pub rows: &'a [Row<S>],
@@ -143,7 +142,6 @@ impl<S: Real> Objective<S> {
             track,
             damp,
             inverse: damp.map(|damp| (track + damp).recip()),
-            damps_relative: weights.damps_relative,
             softness: (weights.dynamics * weights.dynamics).recip(),
             time_step_secs: weights.time_step_secs,
             coupled: coupled(tree),
@@ -325,13 +323,7 @@ impl<S: Real> Objective<S> {
     /// g of tracking and damping.
     #[inline(always)]
     fn tracking(&self, frame: &Frame<S>) -> Vector<S> {
-        let mut right = frame.deviation.map(|deviation| -(self.track * deviation));
-        if !self.damps_relative {
-            for i in 0..N {
-                right[i] -= self.damp[i] * frame.input_step[i];
-            }
-        }
-        right
+        std::array::from_fn(|i| self.damp[i] * frame.coast[i] - self.track * frame.deviation[i])
     }
 
     /// R and v: the residual of the constraint is Rᵀ y + v \[N m\].

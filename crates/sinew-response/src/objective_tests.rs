@@ -14,7 +14,7 @@ struct Case {
     weighing: Weighing<f64>,
     upper: UpperBody,
     deviation: Vector<f64>,
-    input_step: Vector<f64>,
+    coast: Vector<f64>,
     torque: Vector<f64>,
     aim: Vector<f64>,
     torque_before: Vector<f64>,
@@ -59,11 +59,10 @@ impl Case {
                 dynamics,
                 stiffness: passive.map(|passive| 8.0 * passive),
                 damping: passive,
-                damps_relative: dynamics.is_finite(),
             },
             upper,
             deviation: vector(0.3),
-            input_step: vector(0.05),
+            coast: vector(0.05),
             torque: vector(60.0),
             aim: vector(60.0),
             torque_before: vector(60.0),
@@ -79,7 +78,7 @@ impl Case {
         Frame {
             mass: &self.mass,
             deviation: &self.deviation,
-            input_step: &self.input_step,
+            coast: &self.coast,
             torque: &self.torque,
             aim: &self.aim,
             reflex: (self.reflex > 0.0).then_some((&self.torque_before, self.reflex)),
@@ -107,9 +106,7 @@ impl Case {
             hessian[(i, i)] += w.track * w.track + damp + hold;
             right[i] -= w.track * w.track * self.deviation[i];
             right[i] += hold * self.stops[i];
-            if !w.damps_relative {
-                right[i] -= damp * self.input_step[i];
-            }
+            right[i] += damp * self.coast[i];
         }
         let others = DMatrix::identity(N, N) - e.transpose() * &e;
         let weight = self.reflex / dt;
@@ -191,7 +188,7 @@ fn nothing_asked_gives_exactly_no_step() {
     for (dynamics, reflex) in [(6.7, 0.0), (6.7, 0.03), (f64::INFINITY, 0.0), (f64::INFINITY, 0.03)] {
         let mut case = Case::new(3, 10, dynamics, reflex, false);
         case.deviation = [0.0; N];
-        case.input_step = [0.0; N];
+        case.coast = [0.0; N];
         case.aim = case.torque;
         case.torque_before = case.torque;
         assert_eq!(case.objective().solve(&case.frame()), [0.0; N], "wc {dynamics}, w3 {reflex}");

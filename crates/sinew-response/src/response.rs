@@ -2,6 +2,7 @@
 
 use crate::basis::Basis;
 use crate::force::PointForce;
+use crate::head::HeadReflex;
 use crate::hips::HipsState;
 use crate::input::Input;
 use crate::limits::Limits;
@@ -11,6 +12,7 @@ use crate::task::{MAX_ROWS, Task, rows_of};
 use crate::torque::{Differences, world_turn};
 use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
+use sinew_body::STANDARD_GRAVITY_M_S2;
 use sinew_body::humanoid::{Body, Deviation, HipsDeviation, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log};
 use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer, snapshot};
 
@@ -78,8 +80,11 @@ struct State {
     step: [DVec3; UPPER_NODES],
     /// Deviation from the wanted pose \[rad\], and the rotations that it makes.
     deviation: Coordinates24,
+    /// By how much the deviation grew in the last step \[rad\].
+    growth: Coordinates24,
     turned: [DQuat; UPPER_NODES],
     hips: HipsState,
+    head: HeadReflex,
     shown: HipsDeviation,
     /// The ground's shift in the frame before and in this one \[m\].
     ground_before: DVec3,
@@ -101,8 +106,10 @@ snapshot!(State {
     hips_turn,
     step,
     deviation,
+    growth,
     turned,
     hips,
+    head,
     shown,
     ground_before,
     ground,
@@ -140,8 +147,10 @@ impl State {
             step: input.step,
             input,
             deviation: [0.0; UPPER_DOFS],
+            growth: [0.0; UPPER_DOFS],
             turned: [DQuat::IDENTITY; UPPER_NODES],
             hips: HipsState::default(),
+            head: HeadReflex::default(),
             shown: HipsDeviation::default(),
             ground_before: DVec3::ZERO,
             ground: DVec3::ZERO,
@@ -168,7 +177,6 @@ impl Response {
             dynamics: weights.dynamics,
             stiffness: basis.inertia().map(|inertia| spring * spring * inertia),
             damping: basis.inertia().map(|inertia| 2.0 * weights.passive_damping * spring * inertia),
-            damps_relative: weights.damps_relative,
         };
         Response {
             objective: Objective::new(upper.tree(), &basis.dynamic(&settings), &weighing),
@@ -211,6 +219,7 @@ impl Response {
         let dt = self.settings.time_step_secs;
 
         state.hips.advance(&self.body, &state.output, forces, dt);
+        state.head.advance(forces, self.mass_kg * STANDARD_GRAVITY_M_S2, dt);
         let shown = state.hips.shown(&self.body, &next.pose);
         // The input's torque now.
         let aim =
@@ -273,20 +282,29 @@ impl Response {
             let kept = posed(body, &next, &state.turned, &shown, DVec3::ZERO);
             rows_of(tasks, &kept, body, dt, rows);
         }
+        let coast = if weights.damps_relative {
+            let kept = if weights.swing_secs > 0.0 { libm::exp(-dt / weights.swing_secs) } else { 0.0 };
+            state.growth.map(|growth| growth * kept)
+        } else {
+            to_coordinates(&kept).map(|step| -step)
+        };
+        let chest = hips_next * next.local[1] * state.turned[1];
+        let draws = if weights.levels_head { state.head.draws(chest, &next.pose, &state.deviation, dt) } else { None };
+        let (mut held, mut stops) = draws.unwrap_or(([0.0; UPPER_DOFS], [0.0; UPPER_DOFS]));
+        let (drawn, drawn_to) = (held, stops);
         let mut frame = Frame {
             mass: upper.found_mass(),
             deviation: &state.deviation,
-            input_step: &to_coordinates(&kept),
+            coast: &coast,
             torque: &torque,
             aim,
             reflex: (reflex > 0.0 && weights.reflex > 0.0).then_some((&torque_before, weights.reflex * reflex)),
-            held: None,
+            held: draws.is_some().then_some((&drawn, &drawn_to)),
             rows,
         };
         let mut step = slowed(objective.solve(&frame), dt);
         let mut limited = 0;
         let (mut turns, mut turned) = grown(&state.turned, &step);
-        let (mut held, mut stops) = ([0.0; UPPER_DOFS], [0.0; UPPER_DOFS]);
         for node in 1..UPPER_NODES {
             if !limits.contains(body, node, next.local[node] * turned[node]) {
                 limited += 1;
@@ -316,9 +334,11 @@ impl Response {
         state.deviation = to_coordinates(&turns);
         state.step = std::array::from_fn(|node| kept[node] + growth[node]);
         state.turned = turned;
+        state.growth = step;
         let unseen = |value: &f64| value.abs() < FORGOTTEN;
         if state.deviation.iter().all(unseen) && step.iter().all(unseen) {
             state.deviation = [0.0; UPPER_DOFS];
+            state.growth = [0.0; UPPER_DOFS];
             state.turned = [DQuat::IDENTITY; UPPER_NODES];
             state.step = next.step;
         }
@@ -364,16 +384,14 @@ impl Response {
         state.turned = to_vectors(deviation).map(exp);
         state.step = std::array::from_fn(|node| state.turned[node].conjugate() * state.input.step[node] + growth[node]);
         state.deviation = *deviation;
+        state.growth = *last_growth;
         state.output = posed(&self.body, &state.input, &state.turned, &HipsDeviation::default(), DVec3::ZERO);
         state.torque_before = None;
     }
 
     /// The deviation's coordinates, and their change in the last step.
     pub(crate) fn deviation_and_growth(&self) -> (Coordinates24, Coordinates24) {
-        let state = &self.state;
-        let growth =
-            std::array::from_fn(|node| state.step[node] - state.turned[node].conjugate() * state.input.step[node]);
-        (state.deviation, to_coordinates(&growth))
+        (self.state.deviation, self.state.growth)
     }
 }
 

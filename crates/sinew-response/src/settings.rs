@@ -154,6 +154,9 @@ pub(crate) const REFERENCE_MASS_KG: f64 = 80.0;
 /// Reaction time of muscles \[s\]: the paper's reflex delay, after which w3 has faded to zero.
 pub(crate) const REFLEX_SECS: f64 = 0.2;
 
+/// [`Weights::swing_secs`] of the robust preset: arms swing through once, by 10 to 30 %.
+const SWING_SECS: f64 = 0.06;
+
 /// The weights of one optimisation, resolved from settings and body.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Weights {
@@ -173,6 +176,11 @@ pub(crate) struct Weights {
     pub aims_at_input: bool,
     /// Whether EQ4 damps velocity relative to the input's (else absolute, as printed).
     pub damps_relative: bool,
+    /// Time in which a joint that swings by itself loses its velocity relative to the input's to 1/e \[s\]; 0 as printed. EQ4
+    /// alone is a door closer: a joint creeps back, for seconds, without ever swinging through.
+    pub swing_secs: f64,
+    /// Whether the neck keeps the head level against the trunk.
+    pub levels_head: bool,
 }
 
 impl Weights {
@@ -191,18 +199,22 @@ impl Weights {
             reflex: by_mass / 30.0,
             dynamics: 6.7 * by_mass,
             passive_frequency: 8.0,
-            passive_damping: 1.0,
+            passive_damping: 0.8,
             aims_at_input: true,
             damps_relative: true,
+            swing_secs: 0.0,
+            levels_head: false,
         };
         match settings.preset {
             Preset::Robust => {
                 let (stiff, loose) = (compliance.min(1.0), compliance.max(1.0));
                 Weights {
                     track: base.track * libm::pow(stiff, -0.8) * libm::pow(loose, -0.4),
-                    damp: base.damp.map(|weight| weight * libm::pow(compliance, -0.8)),
+                    damp: base.damp.map(|weight| weight * libm::pow(stiff, -0.8) * libm::pow(loose, -0.6)),
                     passive_frequency: base.passive_frequency * libm::pow(compliance, -0.3),
                     dynamics: base.dynamics * stiff,
+                    swing_secs: SWING_SECS / (loose * loose),
+                    levels_head: true,
                     ..base
                 }
             }

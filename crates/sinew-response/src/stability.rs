@@ -18,7 +18,7 @@ const TRIAL: f64 = 1e-6;
 
 /// Maximum growth of small deviations in a second at which a compliance is accepted: from 20 degrees to 2 in two and
 /// a half seconds, so that what the stretches do not show of a long motion is covered.
-const GROWTH_PER_SECOND: f64 = 0.4;
+const GROWTH_PER_SECOND: f64 = 0.3;
 
 /// Poses in one stretch of a long motion: about a stride.
 const STRETCH: usize = 72;
@@ -26,8 +26,8 @@ const STRETCH: usize = 72;
 /// Number of stretches of a long motion that are examined.
 const STRETCHES: usize = 6;
 
-/// The compliance is searched in steps of this factor, then by bisection.
-const DIAL_STEP: f64 = std::f64::consts::SQRT_2;
+/// The compliance is searched in this many steps to a factor of two, then by bisection.
+const STEPS_TO_HALF: f64 = 2.0;
 
 /// Number of bisections: to two per cent.
 const HALVINGS: usize = 4;
@@ -51,9 +51,11 @@ pub(crate) fn stable_compliance(body: &Body, basis: &Basis, settings: &Settings,
         return asked;
     }
     // The grid does not depend on the requested value, so that requesting more never gives less.
-    let mut above = Settings::MAX_COMPLIANCE;
+    let (mut above, mut step) = (Settings::MAX_COMPLIANCE, 0.0);
     while above > Settings::MIN_COMPLIANCE {
-        let below = (above / DIAL_STEP).max(Settings::MIN_COMPLIANCE);
+        step += 1.0;
+        // Powers of two are exact, so that a dial at one of them is on the grid.
+        let below = (Settings::MAX_COMPLIANCE * libm::exp2(-step / STEPS_TO_HALF)).max(Settings::MIN_COMPLIANCE);
         if below < asked {
             let growth = grows(below);
             if growth <= allowed {

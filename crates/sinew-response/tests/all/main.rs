@@ -7,6 +7,7 @@ mod claims_live;
 mod claims_noise;
 mod claims_presets;
 mod claims_recovery;
+mod claims_swing;
 mod noisy;
 mod pushing;
 mod seen;
