@@ -1,6 +1,7 @@
 //! The collision filter: pairs that pass through each other instead of colliding.
 
 use crate::engine::untag;
+use crate::sliding::{oppose_slip, set_hook};
 use crate::{CharacterId, Entity, PropId, World};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
@@ -12,6 +13,8 @@ pub(crate) struct CollisionFilter {
     pub own: Vec<[u32; Node::COUNT]>,
     /// Characters' parts and the props that they pass through.
     pub props: Vec<(CharacterId, Node, PropId)>,
+    /// Characters' parts that pass through the floor.
+    pub floor: Vec<(CharacterId, Node)>,
 }
 
 impl CollisionFilter {
@@ -19,12 +22,15 @@ impl CollisionFilter {
     pub fn add_character(&mut self, character: CharacterId) {
         self.own.resize(self.own.len().max(character.slot() + 1), [0; Node::COUNT]);
         self.own[character.slot()] = [0; Node::COUNT];
+        // Both legs: filtering them allocates nothing.
+        self.floor.reserve(6);
     }
 
     /// Forgets a character.
     pub fn remove_character(&mut self, character: CharacterId) {
         self.add_character(character);
         self.props.retain(|(owner, ..)| *owner != character);
+        self.floor.retain(|(owner, _)| *owner != character);
     }
 
     /// Forgets a prop.
@@ -36,6 +42,7 @@ impl CollisionFilter {
     fn asks(&self, character: CharacterId, node: Node) -> bool {
         self.own.get(character.slot()).is_some_and(|masks| masks[node.index()] != 0)
             || self.props.iter().any(|(owner, part, _)| (*owner, *part) == (character, node))
+            || self.floor.contains(&(character, node))
     }
 }
 
@@ -53,8 +60,17 @@ impl PhysicsHooks for CollisionFilter {
                 let passes = self.props.contains(&(owner, node, prop));
                 Some(if passes { SolverFlags::empty() } else { SolverFlags::default() })
             }
+            (Some(Entity::Part(owner, node)), Some(Entity::Floor))
+            | (Some(Entity::Floor), Some(Entity::Part(owner, node))) => {
+                let passes = self.floor.contains(&(owner, node));
+                Some(if passes { SolverFlags::empty() } else { SolverFlags::default() })
+            }
             _ => Some(SolverFlags::default()),
         }
+    }
+
+    fn modify_solver_contacts(&self, context: &mut ContactModificationContext<'_>) {
+        oppose_slip(context);
     }
 }
 
@@ -91,15 +107,25 @@ impl World {
         self.let_ask(character, node);
     }
 
+    /// Filters collisions between a part and the floor, or stops filtering. Takes effect once the part moves. The
+    /// [`Frame`](crate::Frame) keeps reporting their contacts. For legs that are held to a motion which stands on the floor already.
+    pub fn set_passes_floor(&mut self, character: CharacterId, node: Node, on: bool) {
+        if self.characters.get(character).is_none() {
+            return self.count_stale();
+        }
+        let floor = &mut self.engine.collision_filter.floor;
+        match floor.iter().position(|other| *other == (character, node)) {
+            None if on => floor.push((character, node)),
+            Some(at) if !on => drop(floor.swap_remove(at)),
+            _ => return,
+        }
+        self.let_ask(character, node);
+    }
+
     /// The hook has a cost for every contact in each step, so it is active only for filtered parts.
     fn let_ask(&mut self, character: CharacterId, node: Node) {
         let asks = self.engine.collision_filter.asks(character, node);
         let Some(one) = self.characters.get(character) else { return };
-        if let Some(collider) = self.engine.colliders.get_mut(one.colliders[node.index()]) {
-            let hooks = if asks { ActiveHooks::FILTER_CONTACT_PAIRS } else { ActiveHooks::empty() };
-            if collider.active_hooks() != hooks {
-                collider.set_active_hooks(hooks);
-            }
-        }
+        set_hook(&mut self.engine.colliders, one.colliders[node.index()], ActiveHooks::FILTER_CONTACT_PAIRS, asks);
     }
 }

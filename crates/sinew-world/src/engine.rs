@@ -59,6 +59,7 @@ impl Engine {
         if let Some(surface) = settings.floor {
             let floor = ColliderBuilder::new(SharedShape::halfspace(DVec3::Y))
                 .friction(surface.friction)
+                .friction_combine_rule(CoefficientCombineRule::GeometricMean)
                 .restitution(surface.bounce)
                 .restitution_combine_rule(CoefficientCombineRule::Max)
                 .user_data(tag(Entity::Floor));

@@ -11,7 +11,7 @@ use crate::Drive;
 use crate::ragdoll::is_hinge;
 use glam::{DMat3, DQuat, DVec3};
 use rapier3d_f64::prelude::*;
-use sinew_body::humanoid::{Limit, Node, log, swing_twist};
+use sinew_body::humanoid::{Limit, Node, exp, log, swing_twist};
 
 /// The exponential spring of a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -217,7 +217,8 @@ pub(crate) fn write_ball(
     frame * DVec3::from_array(begun)
 }
 
-/// Writes a hinge's row, about X of both frames; otherwise as [`write_ball`].
+/// Writes a hinge's row, about X of both frames; otherwise as [`write_ball`]. Captured knees do not turn about their X alone: the axis
+/// goes along with what the drive wants beside that turn.
 pub(crate) fn write_hinge(
     joint: &mut GenericJoint,
     limit: &Limit,
@@ -227,6 +228,8 @@ pub(crate) fn write_hinge(
     start: Start,
 ) -> DVec3 {
     let angle_of = |rotation: DQuat| 2.0 * libm::atan2(rotation.x, rotation.w);
+    let beside = beside_hinge(drive.rotation);
+    let local = beside.conjugate() * local;
     let centre = angle_of(limit.centre);
     let angle = wrap(angle_of(local) - centre);
     let high = angle - limit.swing.x_positive;
@@ -238,12 +241,27 @@ pub(crate) fn write_hinge(
     let row = Row { error: sign * mirrored.error, velocity: sign * mirrored.velocity, ..mirrored };
     // As with ball joints, the solver sees no angle at the step's start; errors about the locked axes stay.
     let (sin, cos) = libm::sincos(angle_of(local) / 2.0);
+    joint.local_frame1.rotation = beside;
     joint.local_frame2.rotation = DQuat::from_xyzw(-sin, 0.0, 0.0, cos);
-    let (row, torque) = row.begun_with(start.torque_for(drive).x, start.sub_step_secs);
+    let axis = beside * DVec3::X;
+    let (row, torque) = row.begun_with(start.torque_for(drive).dot(axis), start.sub_step_secs);
     set(joint, JointAxis::AngX, -row.error, row);
     stop(joint, JointAxis::AngX, violation, sign);
-    DVec3::X * torque
+    axis * torque
 }
+
+/// What a rotation is beside its turn about X, which comes first: at most [`MAX_BESIDE`].
+fn beside_hinge(rotation: DQuat) -> DQuat {
+    let turn = DQuat::from_xyzw(rotation.x, 0.0, 0.0, rotation.w);
+    if rotation.y == 0.0 && rotation.z == 0.0 || turn.length_squared() < 1e-6 {
+        return DQuat::IDENTITY;
+    }
+    let beside = log((rotation * turn.conjugate()).normalize());
+    exp(beside.clamp_length_max(MAX_BESIDE))
+}
+
+/// Largest turn of a hinge's axis \[rad\]: what captured shanks turn beside the knee's bending, and some more.
+const MAX_BESIDE: f64 = 0.7;
 
 /// The stop behind a limit's spring, which ends what an impact drives through it within one step \[rad beyond the
 /// limit\]: a degree and a half, about where the spring carries a fifth of m g h.

@@ -51,6 +51,7 @@ mod remove;
 mod rows;
 mod sanitize;
 mod settings;
+mod sliding;
 mod slots;
 mod solid;
 mod spec;

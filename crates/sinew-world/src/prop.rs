@@ -50,6 +50,7 @@ impl Prop {
         let mut collider = ColliderBuilder::new(shape)
             .position(spec.solid.placement())
             .friction(surface.friction)
+            .friction_combine_rule(CoefficientCombineRule::GeometricMean)
             .restitution(surface.bounce)
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .sensor(spec.is_sensor)

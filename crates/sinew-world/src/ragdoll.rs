@@ -158,6 +158,7 @@ pub(crate) fn part_collider(solid: &Solid, surface: Surface, character: Characte
             .position(solid.placement())
             .density(0.0)
             .friction(surface.friction)
+            .friction_combine_rule(CoefficientCombineRule::GeometricMean)
             .restitution(surface.bounce)
             .restitution_combine_rule(CoefficientCombineRule::Max)
             .user_data(crate::engine::tag(Entity::Part(character, node)))

@@ -23,7 +23,7 @@ pub struct WorldSettings {
 /// Friction and restitution of a surface. Numbers beyond their range are clamped, NaN counts as 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Surface {
-    /// Coefficient of friction \[1\], 0 to 10; between two surfaces the mean counts.
+    /// Coefficient of friction \[1\], 0 to 10; between two surfaces √(μ₁ μ₂) counts: on ice everything slides.
     pub friction: f64,
     /// Coefficient of restitution \[1\], 0 to 1; between two surfaces the larger counts.
     pub bounce: f64,

@@ -86,6 +86,11 @@ impl<I: SlotId, T> Slots<I, T> {
     }
 
     /// All values, by slot.
+    pub fn values(&self) -> impl Iterator<Item = &T> {
+        self.slots.iter().filter_map(|slot| slot.value.as_ref())
+    }
+
+    /// All values, by slot, to change.
     pub fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.slots.iter_mut().filter_map(|slot| slot.value.as_mut())
     }

@@ -9,7 +9,7 @@ use crate::readback::Readback;
 use crate::slots::Slots;
 use crate::{
     CharacterId, CharacterSpec, Drive, Entity, Frame, Held, Motion, Pin, PropId, PropJointId, PropSpec, SpecError,
-    WorldSettings, ragdoll, sanitize,
+    WorldSettings, ragdoll, sanitize, sliding,
 };
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
@@ -119,6 +119,7 @@ impl World {
         }
         self.prepare_attachments();
         self.prepare_prop_joints();
+        sliding::prepare(&mut self.engine, self.characters.values(), self.props.values());
         self.engine.step();
         self.forget_forces();
         self.break_attachments();
@@ -229,6 +230,21 @@ impl World {
     /// [`Node::index`].
     pub fn pushes(&self, character: CharacterId) -> Option<&[DVec3; Node::COUNT]> {
         Some(&self.characters.get(character)?.pushes[1])
+    }
+
+    /// Takes a part's pushes of the next step off its rigid body, and returns their force \[N\] and their moment about the part's centre
+    /// of mass \[N m\], world axes; `None` without any. For a tracker that answers pushes itself. [`World::pushes`] counts them
+    /// all the same.
+    pub fn take_push(&mut self, character: CharacterId, node: Node) -> Option<(DVec3, DVec3)> {
+        let handle = self.characters.get(character)?.bodies[node.index()];
+        let is_pushed = |body: &RigidBody| body.user_force() != DVec3::ZERO || body.user_torque() != DVec3::ZERO;
+        // Mutable access marks a body as changed in the library.
+        self.engine.bodies.get(handle).filter(|body| is_pushed(body))?;
+        let body = self.engine.bodies.get_mut(handle)?;
+        let push = (body.user_force(), body.user_torque());
+        body.reset_forces(false);
+        body.reset_torques(false);
+        Some(push)
     }
 
     /// A force on a prop in the next step only \[N\], at a point of the world or at its centre of mass.

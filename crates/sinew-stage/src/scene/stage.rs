@@ -43,7 +43,7 @@ pub enum FloorSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FloorSurface {
-    /// Coefficient of friction, 0 to 10; between two surfaces the mean counts.
+    /// Coefficient of friction, 0 to 10; between two surfaces the root of their product counts.
     pub friction: f64,
     /// Coefficient of restitution, 0 to 1; between two surfaces the larger counts.
     pub bounce: f64,

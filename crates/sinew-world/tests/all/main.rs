@@ -7,6 +7,7 @@ mod determinism;
 mod falls;
 mod flight;
 mod frame_bytes;
+mod friction;
 mod holds;
 mod hostile;
 mod kept;
