@@ -13,7 +13,8 @@ const SAME_RATE: f64 = 2e-4;
 ///
 /// Frames that fall on frames of the clip keep their bits. Between them, translations follow a Catmull-Rom cubic and
 /// rotations the same cubic of their quaternions (signs aligned, normalised), which keeps velocities continuous; across turns of
-/// more than 50° per frame they follow the great arc. A ratio of the rates within 0.02 % of a fraction with small numbers is taken
+/// more than 50° per frame they follow the great arc. Before the first and after the last frame the motion counts as going on evenly, so
+/// that a constant velocity stays constant up to both ends. A ratio of the rates within 0.02 % of a fraction with small numbers is taken
 /// for that fraction. Frames are not filtered: filter first where the rate goes far down.
 ///
 /// ```
@@ -49,8 +50,17 @@ pub fn resample(clip: &Clip, fps: f64) -> Clip {
         } else {
             let frames = [at.saturating_sub(1), at, at + 1, (at + 2).min(last)];
             locals.extend((0..joints).map(|joint| {
-                let rotations = frames.map(|frame| clip.rotation(frame, joint));
-                let translations = frames.map(|frame| clip.translation(frame, joint));
+                let mut rotations = frames.map(|frame| clip.rotation(frame, joint));
+                let mut translations = frames.map(|frame| clip.translation(frame, joint));
+                // Beyond the ends the motion goes on evenly: an end frame in place of its neighbour would halve the tangent there.
+                if at == 0 {
+                    rotations[0] = beyond(rotations[1], rotations[2]);
+                    translations[0] = translations[1] * 2.0 - translations[2];
+                }
+                if at + 1 == last {
+                    rotations[3] = beyond(rotations[2], rotations[1]);
+                    translations[3] = translations[2] * 2.0 - translations[1];
+                }
                 Transform::new(between_rotations(rotations, share), between(translations, share))
             }));
         }
@@ -100,6 +110,11 @@ impl Step {
 fn weights(share: f64) -> [f64; 4] {
     let (t, t2, t3) = (share, share * share, share * share * share);
     [0.5 * (-t + 2.0 * t2 - t3), 0.5 * (2.0 - 5.0 * t2 + 3.0 * t3), 0.5 * (t + 4.0 * t2 - 3.0 * t3), 0.5 * (t3 - t2)]
+}
+
+/// The rotation as far on from `from` to `end` as these are apart.
+fn beyond(end: DQuat, from: DQuat) -> DQuat {
+    if end == from { end } else { end * from.conjugate() * end }
 }
 
 fn between(points: [DVec3; 4], share: f64) -> DVec3 {

@@ -120,8 +120,11 @@ impl Track {
         if self.deviations[index..=index + 1].iter().all(|deviation| *deviation == Deviation::NONE) {
             return Deviation::NONE;
         }
-        let around = [index.saturating_sub(1), index, index + 1, (index + 2).min(last)];
-        Deviation::cubic(around.map(|index| &self.deviations[index]), fraction)
+        // Beyond the ends it goes on evenly.
+        let (from, to) = (&self.deviations[index], &self.deviations[index + 1]);
+        let before = index.checked_sub(1).map_or_else(|| from.beyond(to), |before| self.deviations[before]);
+        let after = self.deviations.get(index + 2).copied().unwrap_or_else(|| to.beyond(from));
+        Deviation::cubic([&before, from, to, &after], fraction)
     }
 
     /// Per node the angle \[rad\] of its joint from another run's, in one pose.

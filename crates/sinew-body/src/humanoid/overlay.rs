@@ -61,6 +61,17 @@ impl Deviation {
         }
     }
 
+    /// The deviation as far on from `from` to this one as these are apart: the neighbour for a [`cubic`](Deviation::cubic) at an end.
+    pub fn beyond(&self, from: &Deviation) -> Deviation {
+        let on = |end: DVec3, from: DVec3| end * 2.0 - from;
+        Deviation {
+            hips_shift: on(self.hips_shift, from.hips_shift),
+            hips_turn: on(self.hips_turn, from.hips_turn),
+            ground_shift: on(self.ground_shift, from.ground_shift),
+            turns: std::array::from_fn(|node| on(self.turns[node], from.turns[node])),
+        }
+    }
+
     /// The same with scaled shifts: metres of the clip from metres of the body.
     pub fn with_shifts_scaled(&self, scale: f64) -> Deviation {
         Deviation { hips_shift: self.hips_shift * scale, ground_shift: self.ground_shift * scale, ..*self }
