@@ -70,6 +70,8 @@ pub struct LiveSource {
     /// When the last used sample arrived \[s\].
     heard_secs: f64,
     idle: Pose,
+    /// Where the body's hips are, when somebody says so \[m\].
+    body_hips: Option<DVec3>,
     blend: Blend,
     filter: OneEuro,
     /// Before and after the filter.
@@ -87,7 +89,7 @@ snapshot!(enum Presence { 0: Waiting, 1: Performing, 2: Holding, 3: Relaxed });
 snapshot!(LiveSource {
     outlier_filter, clock, build, alignment, aligned, buffer, playhead, is_ahead, is_mended, presence, heard_secs, idle, blend,
     filter, blended, shown, before, step_secs, until_secs, gain,
-} fixed { stand, settings });
+} fixed { stand, settings, body_hips });
 
 /// Timeout after which a stream counts as lost \[s\]: the extrapolation beyond its last sample has come to rest by
 /// then.
@@ -110,6 +112,9 @@ const BRIDGE_SECS: f64 = 0.1;
 
 /// Maximum extrapolation of a pose \[s\]: a motion frame at 30 Hz.
 const MAX_AHEAD_SECS: f64 = 0.034;
+
+/// Distance from its place up to which a relaxed body comes back to it \[m\].
+const KEEPS_PLACE_M: f64 = 0.1;
 
 /// Number of samples after which an alignment is final.
 const SURE: u32 = 10;
@@ -135,6 +140,7 @@ impl LiveSource {
             presence: Presence::Waiting,
             heard_secs: 0.0,
             idle: *first,
+            body_hips: None,
             blend: Blend::none(),
             filter: OneEuro::new(settings.smoothing_hz),
             blended: *first,
@@ -209,8 +215,12 @@ impl LiveSource {
         let was = self.presence;
         self.presence = self.presence_at(now_secs);
         if was != self.presence && self.presence == Presence::Relaxed {
+            self.move_to_body();
             self.idle = self.at_ease();
             self.blend = Blend::begin(&self.blended, &self.idle, self.settings.relax_secs);
+        }
+        if self.presence == Presence::Relaxed {
+            self.yield_place();
         }
         let wanted = match self.presence {
             Presence::Waiting | Presence::Relaxed => self.idle,
@@ -288,6 +298,30 @@ impl LiveSource {
         self.playhead = Some(time_secs);
         self.is_mended = false;
         self.is_ahead = self.buffer.newest().is_none_or(|newest| newest.time_secs < time_secs);
+    }
+
+    /// Says where the hips of the body are \[m\], before each [`advance`](LiveSource::advance): a relaxed body stands where it is, not
+    /// where its performer left, which may be inside an obstacle.
+    pub fn body_is_at(&mut self, hips: DVec3) {
+        self.body_hips = hips.is_finite().then_some(hips);
+    }
+
+    /// The body may not have come to where its performer went: from now on the pose is where the body is.
+    fn move_to_body(&mut self) {
+        let Some(hips) = self.body_hips else { return };
+        let off = (hips - self.blended.hips_position).with_y(0.0);
+        if off.length() > KEEPS_PLACE_M {
+            for pose in [&mut self.blended, &mut self.shown, &mut self.before] {
+                pose.hips_position += off;
+            }
+        }
+    }
+
+    /// A relaxed body that something keeps from its place stands beside it.
+    fn yield_place(&mut self) {
+        let Some(hips) = self.body_hips else { return };
+        let off = (hips - self.idle.hips_position).with_y(0.0);
+        self.idle.hips_position += off - off.clamp_length_max(KEEPS_PLACE_M);
     }
 
     /// Standing upright at the position and heading of the shown pose.
