@@ -50,6 +50,9 @@ pub struct Wanted {
     /// The whole pose, world. With a free [`root`](Wanted::root) it is undefined until [`FreeRoot`](crate::FreeRoot)
     /// has placed it.
     pub pose: Pose,
+    /// The same pose low-passed without delay, where the source knows its motion beforehand: what the response finds the motion's
+    /// torques in. `None` where [`pose`](Wanted::pose) is all that is known.
+    pub smooth: Option<Pose>,
     /// Whether the pose's hips are where they are wanted.
     pub root: Root,
 }
@@ -63,7 +66,7 @@ impl JointTarget {
 impl Wanted {
     /// Standing, arms hanging, with the joints' own gains.
     pub const STANDING: Wanted =
-        Wanted { joints: [JointTarget::REST; Node::COUNT], pose: Pose::STANDING, root: Root::Free };
+        Wanted { joints: [JointTarget::REST; Node::COUNT], pose: Pose::STANDING, smooth: None, root: Root::Free };
 
     /// One joint.
     pub fn joint(&self, node: Node) -> &JointTarget {
@@ -83,7 +86,7 @@ impl Wanted {
             joint.rotation = local.normalize();
             joint.velocity = log((local.conjugate() * after).normalize()) / ahead_secs;
         }
-        (self.pose, self.root) = (*now, Root::Placed);
+        (self.pose, self.smooth, self.root) = (*now, None, Root::Placed);
     }
 
     /// The pose of these joints with the hips somewhere: position \[m\] and `world_from_hips`.

@@ -38,7 +38,7 @@ pub(crate) struct Play {
     pub repeats: bool,
     /// For how long poses are needed \[s\].
     pub until_secs: f64,
-    /// Low-passed, as the response needs it to know the motion's torques.
+    /// Low-passed too, as the response needs it to know the motion's torques.
     pub is_filtered: bool,
     /// Lifted or lowered so that its soles stand on the floor of the character's place: for bodies that collide with the floor.
     pub stands_on_floor: bool,
@@ -96,13 +96,12 @@ pub(crate) fn clip_source(
 ) -> Result<ClipSource, String> {
     let Play { hz, is_filtered, stands_on_floor, .. } = *play;
     let Played { clip, start_secs, wanted, .. } = played(file, play)?;
-    let mut poses: Vec<Pose> = if is_filtered {
-        let settings = Settings { time_step_secs: 1.0 / hz, ..Settings::default() };
-        Motion::of_clip(&clip, reduction, 0, &settings).poses().to_vec()
-    } else {
-        (0..clip.frames()).map(|frame| reduction.pose(&clip.world(frame))).collect()
-    };
+    let mut poses: Vec<Pose> = (0..clip.frames()).map(|frame| reduction.pose(&clip.world(frame))).collect();
+    let settings = Settings { time_step_secs: 1.0 / hz, ..Settings::default() };
+    let smooth = is_filtered.then(|| Motion::of_clip(&clip, reduction, 0, &settings).poses().to_vec());
+    let mut smooth = smooth.unwrap_or_default();
     poses.truncate(wanted);
+    smooth.truncate(wanted);
     let first = ((start_secs * hz).round() as usize).min(poses.len().saturating_sub(1));
     let Some(start) = poses.get(first).copied() else { return Err("the clip has no frames".to_owned()) };
     // Hips swing as they walk: where they face is their mean over a second.
@@ -113,11 +112,11 @@ pub(crate) fn clip_source(
     let place = DVec3::from(spec.position_m);
     let floor = if stands_on_floor { floor_m(reduction.body(), &poses[first..]) } else { 0.0 };
     let from = DVec3::new(start.hips_position.x, floor, start.hips_position.z);
-    for pose in &mut poses {
+    for pose in poses.iter_mut().chain(&mut smooth) {
         pose.hips_position = turn * (pose.hips_position - from) + place;
         pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
     }
-    Ok(ClipSource::of_poses(poses, hz, start_secs))
+    Ok(ClipSource::of_poses(poses, hz, start_secs).with_smooth(smooth))
 }
 
 /// Height on which the soles of poses stand \[m\]: they come lower by some centimetres only as feet roll off.

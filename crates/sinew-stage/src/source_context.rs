@@ -33,13 +33,41 @@ pub(crate) fn cut(scene: &Scene, spec: &CharacterSpec) -> Result<Cut, String> {
         } else {
             read_clip(scene, spec, &how, play)?
         };
-        for pose in clip.motion().unwrap_or_default() {
-            body.widen_limits(pose);
-        }
+        widen(&mut body, clip.poses().iter().chain(clip.motion().unwrap_or_default()), spec.tracker);
         clips.push((play.clone(), clip));
     }
     Ok(Cut { body, clips })
 }
+
+/// Widens the limits of a body to the poses of its clip. One that the response moves goes through all of them, and between two frames a
+/// little beyond: its limits get some room where the clip comes to them, and its knees their turn about X in any case.
+fn widen<'a>(body: &mut Body, poses: impl Iterator<Item = &'a Pose>, tracker: TrackerKind) {
+    let before = Node::ALL.map(|node| body.link(node).limit);
+    let has_room = tracker == TrackerKind::Response;
+    for pose in poses {
+        body.widen_limits(pose);
+        for knee in [Node::LeftLowerLeg, Node::RightLowerLeg].into_iter().filter(|_| has_room) {
+            let limit = &mut body.link_mut(knee).limit;
+            let bent = limit.centre.conjugate() * pose.local(knee);
+            // Within half a turn.
+            let angle = 2.0 * libm::atan(bent.x / if bent.w == 0.0 { f64::MIN_POSITIVE } else { bent.w });
+            limit.swing.x_positive = limit.swing.x_positive.max(angle);
+            limit.swing.x_negative = limit.swing.x_negative.max(-angle);
+        }
+    }
+    for node in Node::ALL.into_iter().filter(|_| has_room) {
+        let (limit, before) = (&mut body.link_mut(node).limit, &before[node.index()]);
+        let room = |now: f64, before: f64| if now > before { now + ROOM_RAD } else { now };
+        limit.swing.x_positive = room(limit.swing.x_positive, before.swing.x_positive);
+        limit.swing.x_negative = room(limit.swing.x_negative, before.swing.x_negative);
+        limit.swing.z_positive = room(limit.swing.z_positive, before.swing.z_positive);
+        limit.swing.z_negative = room(limit.swing.z_negative, before.swing.z_negative);
+        limit.twist = (-room(-limit.twist.0, -before.twist.0), room(limit.twist.1, before.twist.1));
+    }
+}
+
+/// How far a limit lies beyond what the clip does \[rad\]: a cubic between two frames of a quick turn strays by a degree or two.
+const ROOM_RAD: f64 = 0.05;
 
 pub(crate) fn how(scene: &Scene, tracker: TrackerKind, play: &ClipPlay) -> Play {
     Play {

@@ -198,8 +198,8 @@ impl Stage {
             self.carry_out(&order, cause);
         }
         self.step_scripts(step);
-        self.step_actors();
         self.push_on(step);
+        self.step_actors();
         self.fade_on(step);
         self.world.step();
         self.note_resets();

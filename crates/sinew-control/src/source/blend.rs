@@ -187,7 +187,7 @@ impl Source for Blend {
             joint.rotation = between(joint.rotation, other.rotation, weight);
             joint.velocity = joint.velocity.lerp(other.velocity, weight) + turn * rate;
         }
-        wanted.root = self.root();
+        (wanted.root, wanted.smooth) = (self.root(), None);
         if wanted.root == Root::Placed {
             wanted.pose = wanted.pose_with_hips(position, rotation);
         }

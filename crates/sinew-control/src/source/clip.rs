@@ -20,6 +20,8 @@ use std::sync::Arc;
 pub struct ClipSource {
     /// Shared by all copies; one that is resumed has its own from then on.
     poses: Arc<[Pose]>,
+    /// The same low-passed, where the response needs it.
+    smooth: Option<Arc<[Pose]>>,
     hz: f64,
     start_secs: f64,
     /// When it was resumed, if it was \[s of the stage\].
@@ -42,12 +44,24 @@ const LATER_M2_PER_S: f64 = 0.01;
 impl ClipSource {
     /// Poses at a rate \[Hz\], of which the one at `start_secs` is the stage's first.
     pub fn of_poses(poses: Vec<Pose>, hz: f64, start_secs: f64) -> ClipSource {
-        ClipSource { poses: poses.into(), hz, start_secs, resumed_secs: None }
+        ClipSource { poses: poses.into(), smooth: None, hz, start_secs, resumed_secs: None }
+    }
+
+    /// With the same poses low-passed, for the response: what it shows are the clip's own.
+    #[must_use]
+    pub fn with_smooth(mut self, poses: Vec<Pose>) -> ClipSource {
+        self.smooth = (!poses.is_empty()).then(|| poses.into());
+        self
+    }
+
+    /// The clip's own poses.
+    pub fn poses(&self) -> &[Pose] {
+        &self.poses
     }
 
     /// The pose at a time of the stage; before the start the first, after the end the last.
     pub fn pose_at(&self, time_secs: f64) -> Pose {
-        self.pose_of(self.start_secs + self.own_secs(time_secs))
+        self.pose_of(&self.poses, self.start_secs + self.own_secs(time_secs))
     }
 
     /// As [`Source::resume`] from its beginning, but at full pace at once: for a character that another source moves until then. A walk
@@ -66,16 +80,17 @@ impl ClipSource {
     fn enter(&mut self, body: &Body, times: impl Iterator<Item = f64>, later_m2_per_s: f64, now_secs: f64, at: &Pose) {
         let stance = stance(body, at);
         let off = |secs: &f64| {
-            let other = self::stance(body, &self.pose_of(*secs));
+            let other = self::stance(body, &self.pose_of(&self.poses, *secs));
             let feet = (0..2).map(|foot| (other[foot] - stance[foot]).length_squared()).sum::<f64>();
             feet + later_m2_per_s * secs
         };
         let best = times.min_by(|one, other| off(one).total_cmp(&off(other)));
         let from_secs = best.unwrap_or(self.start_secs).max(0.0);
-        let here = self.pose_of(from_secs);
+        let here = self.pose_of(&self.poses, from_secs);
         let turn = DQuat::from_rotation_y(heading_rad(at) - heading_rad(&here));
         let (from, to) = (here.hips_position, at.hips_position);
-        for pose in Arc::make_mut(&mut self.poses) {
+        let smooth = self.smooth.iter_mut().flat_map(Arc::make_mut);
+        for pose in Arc::make_mut(&mut self.poses).iter_mut().chain(smooth) {
             let moved = turn * (pose.hips_position - from);
             pose.hips_position = DVec3::new(to.x, from.y, to.z) + moved;
             pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
@@ -92,12 +107,12 @@ impl ClipSource {
         time_secs - behind
     }
 
-    /// The pose at a time of the clip.
-    fn pose_of(&self, clip_secs: f64) -> Pose {
+    /// The pose at a time of the clip, among these of it.
+    fn pose_of(&self, poses: &[Pose], clip_secs: f64) -> Pose {
         let at = (clip_secs * self.hz).max(0.0);
-        let last = self.poses.len().saturating_sub(1);
+        let last = poses.len().saturating_sub(1);
         let (index, share) = ((at as usize).min(last), at - at.floor());
-        let (from, to) = (&self.poses[index], &self.poses[(index + 1).min(last)]);
+        let (from, to) = (&poses[index], &poses[(index + 1).min(last)]);
         let mut pose = *from;
         pose.hips_position = from.hips_position.lerp(to.hips_position, share);
         for node in Node::ALL {
@@ -119,10 +134,12 @@ impl Source for ClipSource {
     fn wanted(&self, at_secs: f64, wanted: &mut Wanted) {
         let ahead = 1.0 / self.hz;
         wanted.follow_poses(&self.pose_at(at_secs), &self.pose_at(at_secs + ahead), ahead);
+        let clip_secs = self.start_secs + self.own_secs(at_secs);
+        wanted.smooth = self.smooth.as_ref().map(|smooth| self.pose_of(smooth, clip_secs));
     }
 
     fn motion(&self) -> Option<&[Pose]> {
-        Some(&self.poses)
+        Some(self.smooth.as_ref().unwrap_or(&self.poses))
     }
 
     /// Resumes at `now_secs` of the stage from the clip's time at `left_secs`, or near it where its feet match those of

@@ -113,7 +113,7 @@ pub trait Source: Any + Debug + Send + Sync {
         }
     }
 
-    /// All poses of a motion that is known beforehand, at its own constant rate. Such a source can be asked for any time.
+    /// All poses of a motion that is known beforehand, at its own constant rate, low-passed where it knows them so. Such a source can be asked for any time.
     fn motion(&self) -> Option<&[Pose]> {
         None
     }

@@ -4,7 +4,7 @@ use super::reach::ReachStep;
 use super::{HAND_OVER_SECS, KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, handed_over};
 use crate::{FreeRoot, Root, Wanted};
 use crate::{OrderError, OrderErrorKind};
-use sinew_body::humanoid::{Body, Pose};
+use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_world::{CharacterFrame, CharacterId, Frame};
 use std::any::Any;
 use std::sync::Arc;
@@ -211,6 +211,7 @@ impl Sources {
     /// of the performer that is followed; else of its own source, to which the one before blends. This is the one place that decides
     /// precedence.
     pub fn wanted(&self, at_secs: f64, wanted: &mut Wanted) {
+        wanted.smooth = None;
         match self.reach.as_ref().map(|reach| (reach, reach.leaving_secs())) {
             None => self.wanted_without_reach(at_secs, wanted),
             Some((reach, None)) => reach.wanted(at_secs, wanted),
@@ -326,6 +327,9 @@ impl Sources {
         let understudy = self.performer.as_ref().filter(|performer| performer.has_understudy_on());
         let understudy = understudy.map(|_| self.pose_at(now_secs));
         if let Some(performer) = &mut self.performer {
+            if let Some(body) = frame.character(own) {
+                performer.source_mut().body_is_at(body.part(Node::Hips).position);
+            }
             let change = performer.advance(now_secs, self.step_secs, understudy.as_ref());
             events.extend(change.map(SourceEvent::Stream));
             if change.is_some_and(|change| change.replaces_understudy) {

@@ -50,6 +50,19 @@ impl ContactForces {
         }
     }
 
+    /// Adds the pushes of the world's next step, and takes them off the rigid bodies: the response answers them.
+    pub(crate) fn take_pushes(&mut self, world: &mut World, character: CharacterId) {
+        let step_secs = world.settings().step_secs();
+        for node in Node::ALL {
+            let Some((force, torque)) = world.take_push(character, node) else { continue };
+            // The line along which a force of this moment about the centre of mass acts.
+            let arm = force.cross(torque) / force.length_squared().max(1e-12);
+            let frame = world.frame();
+            let Some(centre) = frame.character(character).map(|one| one.part(node).centre) else { continue };
+            self.touch(frame, character, node, centre + arm, force * step_secs);
+        }
+    }
+
     fn touch(&mut self, frame: &Frame, character: CharacterId, node: Node, point: DVec3, impulse: DVec3) {
         let Some(part) = frame.character(character).map(|one| one.part(node)) else { return };
         let size = impulse.length();

@@ -11,7 +11,7 @@ pub struct Grip {
     /// Frequency of the spring that holds each part, critically damped \[Hz\]. A displaced part returns within about
     /// half of its period.
     pub frequency_hz: f64,
-    /// Maximum acceleration of a part in addition to its weight \[m/s²\].
+    /// Maximum acceleration of a part in addition to its weight and to what the pose's own motion requires \[m/s²\].
     pub max_acceleration: f64,
 }
 
@@ -44,10 +44,19 @@ impl Hold {
         Hold { grip, before: now, now }
     }
 
-    /// At rest in another pose.
-    pub(crate) fn restart(&mut self, body: &Body, pose: &Pose) {
-        self.now = Instant::of(body, pose);
-        self.before = self.now;
+    /// In another pose, which came from one a step of physics before it.
+    pub(crate) fn restart(&mut self, body: &Body, before: &Pose, pose: &Pose) {
+        (self.before, self.now) = (Instant::of(body, before), Instant::of(body, pose));
+    }
+
+    /// Gives the body the velocities of the pose's motion.
+    pub(crate) fn launch(&self, world: &mut World, character: CharacterId) {
+        let step_secs = world.settings().step_secs();
+        let velocities: [(DVec3, DVec3); Node::COUNT] = std::array::from_fn(|at| {
+            let shift = self.now.centres[at] - self.before.centres[at];
+            (shift / step_secs, self.before.turn(&self.now, at) / step_secs)
+        });
+        world.set_velocities(character, &velocities);
     }
 
     /// Sets the stiffness. Takes effect in the next step.
@@ -65,9 +74,9 @@ impl Hold {
         // These pins have no feed-forward acceleration: an increased target velocity compensates for it.
         let lead_secs = (1.0 + step_secs * damping + step_secs * step_secs * stiffness)
             / (damping + step_secs * stiffness).max(1e-9);
-        // What a pin carries of a part's weight comes out of its largest force.
-        let gravity_m_s2 = world.settings().gravity_m_s2.abs();
-        let max_forces = Node::ALL.map(|node| body.link(node).mass_kg * (self.grip.max_acceleration + gravity_m_s2));
+        // What a pin carries of a part's weight, and what the pose's own motion requires, comes out of its largest force.
+        let spare = self.grip.max_acceleration + world.settings().gravity_m_s2.abs();
+        let masses = Node::ALL.map(|node| body.link(node).mass_kg);
         let outboard = world.outboard_inertias(character).copied().unwrap_or([0.0; Node::COUNT]);
         let mut spins = [DVec3::ZERO; Node::COUNT];
         for node in Node::ALL {
@@ -88,7 +97,7 @@ impl Hold {
                 turn_stiffness: stiffness,
                 turn_damping: damping,
                 gravity_share: 1.0,
-                max_force_n: max_forces[at],
+                max_force_n: masses[at] * (spare + acceleration.length().min(MAX_OWN_ACCELERATION)),
                 ..Pin::LOOSE
             };
             world.set_pin(character, node, Some(pin));
@@ -110,6 +119,9 @@ impl Hold {
         self.now = next;
     }
 }
+
+/// Largest acceleration that a pose's own motion may require \[m/s²\]: a hand that is hit by a ball. More is a cut.
+const MAX_OWN_ACCELERATION: f64 = 1000.0;
 
 /// Joints are nearly limp, with the friction that they have anyway: relative to their outboard inertia \[1/s²\],
 /// \[1/s\].

@@ -1,7 +1,7 @@
 //! The kinematic tracker shows the wanted pose, whatever is in the way.
 
 use super::clock::Clock;
-use super::pose_interpolator::PoseInterpolator;
+use super::pose_interpolator::{PoseInterpolator, led_to};
 use super::{Honours, Tracker, TrackerKind, TrackerStart, Wants};
 use crate::Wanted;
 use sinew_body::humanoid::{Node, Pose};
@@ -78,7 +78,13 @@ impl Tracker for KinematicTracker {
         if self.wants_pose() { Wants::Pose } else { Wants::Nothing }
     }
 
-    fn start(&mut self, _: &TrackerStart, _: &mut World, _: CharacterId) {}
+    /// At the world's start the body is in the motion already.
+    fn start(&mut self, start: &TrackerStart, world: &mut World, _: CharacterId) {
+        let Some(motion) = start.motion.filter(|_| world.frame().step == 0) else { return };
+        let (now, next) = (motion(0.0), motion(self.clock.time_step_secs()));
+        self.interpolator = PoseInterpolator::moving(&led_to(&now, &next), &now);
+        self.wanted = now;
+    }
 
     fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId) {
         if self.wants_pose() {

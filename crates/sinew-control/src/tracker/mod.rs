@@ -12,6 +12,7 @@ mod limp;
 mod pd;
 mod pose_interpolator;
 mod response;
+mod self_collision;
 mod tasks;
 
 pub use gains::{Gains, JointGain};

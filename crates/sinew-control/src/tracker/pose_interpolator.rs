@@ -38,6 +38,17 @@ impl PoseInterpolator {
         PoseInterpolator { from: *pose, to: *pose, hips: Cubic::default(), turns: [Cubic::default(); Node::COUNT] }
     }
 
+    /// In a pose, moving as from the pose one motion frame before it.
+    pub(crate) fn moving(before: &Pose, now: &Pose) -> PoseInterpolator {
+        let evenly = |value: DVec3| Cubic { value, slopes: [value; 2] };
+        PoseInterpolator {
+            from: *before,
+            to: *now,
+            hips: evenly(now.hips_position - before.hips_position),
+            turns: std::array::from_fn(|at| evenly(log(before.world[at].conjugate() * now.world[at]))),
+        }
+    }
+
     /// Advances to the pose of the next motion frame.
     pub(crate) fn next(&mut self, to: &Pose) {
         let shift = to.hips_position - self.to.hips_position;
@@ -84,6 +95,16 @@ fn turned_slope(turn: &Cubic) -> DVec3 {
     let (r, slope) = (turn.value, turn.slopes[1]);
     let cross = r.cross(slope);
     slope - cross * 0.5 + r.cross(cross) * (1.0 / 6.0)
+}
+
+/// The pose before one, extrapolated from it and the next.
+pub(crate) fn led_to(now: &Pose, next: &Pose) -> Pose {
+    let mut pose = *now;
+    pose.hips_position += pose.hips_position - next.hips_position;
+    for (rotation, next) in pose.world.iter_mut().zip(next.world) {
+        *rotation = (*rotation * next.conjugate() * *rotation).normalize();
+    }
+    pose
 }
 
 #[cfg(test)]

@@ -3,17 +3,23 @@
 //! All parts stay dynamic bodies. Implicit springs of limited force hold them to the pose that the response returns, so
 //! that at the instant of a contact a part has its own mass and not more. The contact forces on the parts over a motion
 //! frame are passed to the response; its next pose is the target of the springs. So a part that is hit first moves by
-//! its own inertia and then yields in the style of the response.
+//! its own inertia and then yields in the style of the response. Pushes go to the response alone, which answers them as it
+//! does without a world.
+//!
+//! The motion stands on its ground already: legs pass through floor and platform and through each other, and so do other parts
+//! that the motion brings close, because the body's shapes are wider than the performer's.
 
 use super::clock::Clock;
 use super::contact_forces::ContactForces;
 use super::hold::{Grip, GroundMotion, Hold};
-use super::pose_interpolator::PoseInterpolator;
+use super::instant::Instant;
+use super::pose_interpolator::{PoseInterpolator, led_to};
+use super::self_collision::SelfCollision;
 use super::tasks::Tasks;
 use super::{Honours, Tracker, TrackerKind, TrackerStart, Wants};
 use crate::Wanted;
 use glam::DVec3;
-use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_body::humanoid::{Body, Deviation, Node, Pose};
 use sinew_response::{Basis, PointForce, Response, Settings};
 use sinew_world::{CharacterId, PropId, World};
 
@@ -32,14 +38,19 @@ pub struct ResponseTracker {
     interpolator: PoseInterpolator,
     hold: Hold,
     wanted: Pose,
+    /// What the response follows: the same, low-passed where that is known.
+    smooth: Pose,
     felt: ContactForces,
     forces: Vec<PointForce>,
     tasks: Tasks,
     platform: Option<Platform>,
+    self_collision: SelfCollision,
+    /// The prop that the legs pass through.
+    passed: Option<PropId>,
 }
 
 // The forces are computed anew in every frame.
-sinew_snapshot::snapshot!(ResponseTracker { response, clock, interpolator, hold, wanted, felt, tasks, platform } fixed { forces });
+sinew_snapshot::snapshot!(ResponseTracker { response, clock, interpolator, hold, wanted, smooth, felt, tasks, platform, self_collision, passed } fixed { forces });
 sinew_snapshot::snapshot!(Platform { prop, origin, step_velocity, frame_velocity });
 
 /// A moving prop that the character stands on.
@@ -64,14 +75,17 @@ impl ResponseTracker {
     pub fn new(body: Body, basis: Basis, settings: Settings, first: &Pose) -> ResponseTracker {
         ResponseTracker {
             hold: Hold::new(Grip::RESPONSE, &body, first),
+            self_collision: SelfCollision::new(&body),
             response: Response::new(body, basis, settings, first),
             clock: Clock::new(settings.time_step_secs),
             interpolator: PoseInterpolator::rest(first),
             wanted: *first,
+            smooth: *first,
             felt: ContactForces::default(),
             forces: Vec::with_capacity(Node::COUNT),
             tasks: Tasks::none(),
             platform: None,
+            passed: None,
         }
     }
 
@@ -79,12 +93,11 @@ impl ResponseTracker {
     /// when the body was moved by something else. Tasks and platform stay.
     pub fn restart(&mut self, before: &Pose, now: &Pose) {
         self.response.restart(before, now);
-        self.interpolator = PoseInterpolator::rest(before);
-        self.interpolator.next(now);
-        self.hold.restart(self.response.body(), now);
+        self.interpolator = PoseInterpolator::moving(before, now);
+        self.hold.restart(self.response.body(), now, now);
         self.clock = Clock::new(self.clock.time_step_secs());
         self.felt = ContactForces::default();
-        self.wanted = *now;
+        (self.wanted, self.smooth) = (*now, *now);
     }
 
     /// Whether the next step of physics begins a motion frame.
@@ -94,8 +107,14 @@ impl ResponseTracker {
 
     /// Sets the pose for the end of the motion frame that begins. One that is not finite is ignored.
     pub fn wanted(&mut self, pose: &Pose) {
-        if pose.is_finite() {
-            self.wanted = *pose;
+        self.wanted_with_smooth(pose, pose);
+    }
+
+    /// As [`wanted`](ResponseTracker::wanted), where the same pose is known low-passed too: the response follows that one, and its
+    /// deviations are added to the pose itself. So a body that nothing disturbs shows its motion with all its detail.
+    pub fn wanted_with_smooth(&mut self, pose: &Pose, smooth: &Pose) {
+        if pose.is_finite() && smooth.is_finite() {
+            (self.wanted, self.smooth) = (*pose, *smooth);
         }
     }
 
@@ -130,11 +149,22 @@ impl ResponseTracker {
         self.felt.add(world, character, self.platform.map(|platform| platform.prop));
         let step_secs = world.settings().step_secs();
         let ground = self.ground(world, step_secs);
-        if self.clock.is_due() {
+        let begins = self.clock.is_due();
+        if begins {
             self.clock.begin_frame();
             self.begin_frame(&ground, world);
+            self.pass_ground(world, character);
         }
+        self.felt.take_pushes(world, character);
         let next = self.interpolator.at(self.clock.advance(step_secs));
+        if begins && let Some(frame) = world.frame().character(character) {
+            let mut masks = self.self_collision.look(&Instant::of(self.response.body(), &next), frame);
+            // The motion decides where both legs are; soles of a box each would catch on the other leg.
+            for leg in LEGS {
+                masks[leg.index()] |= LEGS_MASK;
+            }
+            world.set_passes_own(character, masks);
+        }
         self.hold.carry_to(&next, &ground, world, character);
     }
 
@@ -147,10 +177,27 @@ impl ResponseTracker {
             platform.frame_velocity = ground.velocity;
         }
         let tasks = self.tasks.of(self.interpolator.end(), self.response.body(), ground.shift, world);
-        let mut pose = self.response.step_with_tasks(&self.wanted, &self.forces, acceleration, tasks);
+        self.response.step_with_tasks(&self.smooth, &self.forces, acceleration, tasks);
         // The world has the actual position of its platform.
-        pose.hips_position -= self.response.deviation().ground_shift;
-        self.interpolator.next(&pose);
+        let deviation = Deviation { ground_shift: DVec3::ZERO, ..self.response.deviation() };
+        self.interpolator.next(&self.wanted.deviated(self.response.body(), &deviation));
+    }
+
+    /// Legs pass through the ground.
+    fn pass_ground(&mut self, world: &mut World, character: CharacterId) {
+        let ground = self.platform.map(|platform| platform.prop);
+        for leg in LEGS {
+            world.set_passes_floor(character, leg, true);
+            if self.passed != ground
+                && let Some(before) = self.passed
+            {
+                world.set_passes_prop(character, leg, before, false);
+            }
+            if let Some(prop) = ground {
+                world.set_passes_prop(character, leg, prop, true);
+            }
+        }
+        self.passed = ground;
     }
 
     fn ground(&mut self, world: &World, step_secs: f64) -> GroundMotion {
@@ -202,22 +249,52 @@ impl Tracker for ResponseTracker {
         if self.wants_pose() { Wants::Pose } else { Wants::Nothing }
     }
 
-    /// Continues in the middle of a motion that is known beforehand.
-    fn start(&mut self, start: &TrackerStart, world: &mut World, _: CharacterId) {
+    /// Continues in the middle of a motion that is known beforehand; at the world's start the body has its velocity.
+    fn start(&mut self, start: &TrackerStart, world: &mut World, character: CharacterId) {
         let Some(motion) = start.motion else { return };
-        let now_secs = world.frame().time_secs;
-        self.restart(&motion(now_secs - self.clock.time_step_secs()), &motion(now_secs));
+        let (now_secs, frame_secs) = (world.frame().time_secs, self.clock.time_step_secs());
+        let now = motion(now_secs);
+        let is_start = world.frame().step == 0;
+        let before = if is_start { led_to(&now, &motion(frame_secs)) } else { motion(now_secs - frame_secs) };
+        self.restart(&before, &now);
         self.keep_upright(self.upright().map(|(node, _)| node));
+        if is_start {
+            let share = 1.0 - world.settings().step_secs() / frame_secs;
+            self.hold.restart(self.response.body(), &self.interpolator.at(share), &now);
+            self.hold.launch(world, character);
+        }
     }
 
     fn follow(&mut self, wanted: &Wanted, world: &mut World, character: CharacterId) {
         if self.wants_pose() {
-            self.wanted(&wanted.pose);
+            self.wanted_with_smooth(&wanted.pose, wanted.smooth.as_ref().unwrap_or(&wanted.pose));
         }
         self.physics_step(world, character);
     }
 
     fn release(&mut self, world: &mut World, character: CharacterId) {
         world.set_limp(character);
+        world.set_passes_own(character, [0; Node::COUNT]);
+        for leg in LEGS {
+            world.set_passes_floor(character, leg, false);
+            if let Some(prop) = self.passed {
+                world.set_passes_prop(character, leg, prop, false);
+            }
+        }
+        self.passed = None;
     }
 }
+
+/// The parts of both legs.
+const LEGS: [Node; 6] =
+    [Node::LeftUpperLeg, Node::LeftLowerLeg, Node::LeftFoot, Node::RightUpperLeg, Node::RightLowerLeg, Node::RightFoot];
+
+/// A bit for each of them.
+const LEGS_MASK: u32 = {
+    let (mut mask, mut at) = (0, 0);
+    while at < LEGS.len() {
+        mask |= 1 << LEGS[at].index();
+        at += 1;
+    }
+    mask
+};

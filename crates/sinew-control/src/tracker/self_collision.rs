@@ -4,7 +4,7 @@
 //! A performer's feet pass within a finger's breadth and arms lie against ribs; the shapes of a simulated body are wider in
 //! places. A pair that comes that near in the wanted pose does not collide, until both poses have it apart again.
 
-use super::super::instant::Instant;
+use super::instant::Instant;
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node};
 use sinew_world::{CharacterFrame, Form, never_collide, part_solid};
@@ -25,7 +25,7 @@ struct Capsule {
 
 /// The pairs filtered now.
 #[derive(Clone, Debug)]
-pub(super) struct SelfCollision {
+pub(crate) struct SelfCollision {
     capsules: [Capsule; Node::COUNT],
     pairs: Vec<(usize, usize)>,
     /// By part, a bit for every part that it passes through.
@@ -35,7 +35,7 @@ pub(super) struct SelfCollision {
 sinew_snapshot::snapshot!(SelfCollision { masks } fixed { capsules, pairs });
 
 impl SelfCollision {
-    pub(super) fn new(body: &Body) -> SelfCollision {
+    pub(crate) fn new(body: &Body) -> SelfCollision {
         let never = never_collide(body);
         let mut pairs = Vec::new();
         for one in Node::ALL {
@@ -50,7 +50,7 @@ impl SelfCollision {
     }
 
     /// Updates with a wanted pose and the body; returns the masks of all parts.
-    pub(super) fn look(&mut self, wanted: &Instant, body: &CharacterFrame) -> [u32; Node::COUNT] {
+    pub(crate) fn look(&mut self, wanted: &Instant, body: &CharacterFrame) -> [u32; Node::COUNT] {
         for &(one, other) in &self.pairs {
             let passes = self.masks[one] & 1 << other != 0;
             let near = if passes { APART_M } else { NEAR_M };

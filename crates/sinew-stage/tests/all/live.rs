@@ -3,10 +3,13 @@
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Body, Node, Pose, exp};
+use sinew_body::humanoid::{Body, Node, Person, Pose, Reduction, exp};
 use sinew_control::perform::{PerformerSample, Presence};
 use sinew_control::{Action, Command};
-use sinew_stage::{CharacterEffect, Effect, Scene, Stage};
+use sinew_motion::formats::{MotionFile, ReadOptions};
+use sinew_motion::resample;
+use sinew_stage::{CharacterEffect, Effect, Scene, Stage, sample_walk_bvh};
+use sinew_world::{Form, hips_over_soles_m, part_solid};
 
 const SCENE: &str = "format = 1\n[characters.red]\nsource = { live = {} }\ntracker = \"kinematic\"\nfacing_deg = 90\n\
                      position_m = [2, 0, 0]\n[characters.blue]\npose = \"stand\"\n";
@@ -196,4 +199,53 @@ fn a_spoilt_first_sample_does_not_place_the_performance() {
     // What goes on for ten samples is believed: the way begins eleven samples later, 0.18 s at 0.6 m/s.
     assert!((hips(&stage) - hips(&other)).length() < 0.12, "{} {}", hips(&stage), hips(&other));
     assert!((hips(&stage).y - hips(&other).y).abs() < 1e-3);
+}
+
+/// The sample walk as samples of a performer, 60 a second.
+fn walked() -> Vec<PerformerSample> {
+    let file = MotionFile::from_bvh(&sample_walk_bvh().unwrap(), &ReadOptions::default()).unwrap();
+    let person = Person { mass_kg: 80.0, height_m: None };
+    let reduction = Reduction::new(&file.clip, file.body_parts().unwrap(), file.stature_m, person).unwrap();
+    let clip = resample(&file.clip, 60.0);
+    let sample = |frame: usize| {
+        let pose = reduction.pose(&clip.world(frame));
+        PerformerSample::of_pose(frame as f64 / 60.0, &pose, reduction.body())
+    };
+    (0..clip.frames()).map(sample).collect()
+}
+
+#[test]
+fn a_body_whose_performer_walked_into_a_pole_and_fell_silent_stands_beside_it() {
+    const POLE_M: f64 = 0.04;
+    let scene = format!(
+        "format = 1\n[characters.red]\nsource = {{ live = {{}} }}\ntracker = \"kd\"\nposition_m = [0, 0, -0.82]\n\
+         [props.pole]\ncapsule = {{ radius_m = {POLE_M}, length_m = 2.9 }}\nposition_m = [0, 1.45, 0]\nfixed = true\n"
+    );
+    let mut stage = Stage::new(Scene::from_text(&scene).unwrap(), None).unwrap();
+    for sample in walked().into_iter().take(180) {
+        stage.command(Command::to("red", Action::Perform { sample: Box::new(sample) }));
+        (0..4).for_each(|_| stage.step());
+    }
+    (0..720).for_each(|_| stage.step());
+    let red = stage.cast().character("red").unwrap();
+    let (body, seen) = (stage.state_of(red).unwrap().body(), &stage.frame().characters[red.slot()]);
+    let pose = seen.pose();
+    let sole_m = pose.hips_position.y - hips_over_soles_m(body, &pose);
+    let head_m = seen.part(Node::Head).position.y;
+    println!(
+        "three seconds after silence: lowest sole {sole_m:.3} m, head {head_m:.2} m, hips at {}",
+        pose.hips_position
+    );
+    assert!(sole_m < 0.05, "the lowest sole is at {sole_m} m");
+    assert!(head_m > 1.3, "the head is at {head_m} m");
+    for node in Node::ALL {
+        let Form::Capsule { radius_m, length_m } = part_solid(body, node).form else { continue };
+        let (solid, part) = (part_solid(body, node), seen.part(node));
+        for along in [-0.5, -0.25, 0.0, 0.25, 0.5] {
+            let point = part.point(solid.centre + solid.rotation * DVec3::Y * (along * length_m));
+            let gap = point.with_y(0.0).length() - radius_m - POLE_M;
+            // What a contact's spring gives under a body that leans on it.
+            assert!(gap > -0.01, "{node:?} is {gap} m inside the pole");
+        }
+    }
 }

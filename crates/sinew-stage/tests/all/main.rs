@@ -19,6 +19,7 @@ mod snapshot;
 mod stage;
 mod takes;
 mod timeline;
+mod undisturbed;
 
 /// Scenes here have no controllers.
 fn host() -> Option<sinew_script::ScriptHost> {

@@ -4,7 +4,11 @@
 
 use glam::{DQuat, DVec3};
 use sinew::body::humanoid::{Node, Pose};
+use sinew::jobs::respond::{RespondJob, respond};
 use sinew::jobs::run::{Ran, RunJob, run};
+use sinew::motion::Part;
+use sinew::motion::formats::{MotionFile, ReadOptions};
+use sinew::response::{Push, PushFrame};
 use sinew::stage::Scene;
 use std::path::Path;
 
@@ -104,4 +108,58 @@ fn who_avoids_posts_touches_them_less() {
     let impulse = |ran: &Ran| ran.report.characters["walker"].hit_impulse_max_n_s;
     println!("avoiding {:.2} N s, blind {:.2} N s", impulse(&careful), impulse(&blind));
     assert!(impulse(&careful) < 0.5 * impulse(&blind), "{} {}", impulse(&careful), impulse(&blind));
+}
+
+/// Largest angle by which a part turns away from the unpushed run, within a second and a half of a push at 1 s [deg].
+fn peak_deg(pushed: &[Pose], unpushed: &[Pose], node: Node) -> f64 {
+    let angle =
+        |(one, other): (&Pose, &Pose)| one.world[node.index()].angle_between(other.world[node.index()]).to_degrees();
+    pushed.iter().zip(unpushed).take(150).map(angle).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_push_on_a_stage_does_what_it_does_on_the_command_line() {
+    let walk = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples/walk.bvh");
+    let file = MotionFile::read(&walk, &ReadOptions::default()).unwrap();
+    let on_stage = |push: &str| {
+        let text = format!(
+            "format = 1\n[stage]\nduration_secs = 2.6\n[characters.walker]\ntracker = \"response\"\nsource = {{ clip = \"walk.bvh\" }}\n{push}"
+        );
+        let files = [("scene.toml", text.into_bytes()), ("walk.bvh", std::fs::read(&walk).unwrap())];
+        let files = files.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect();
+        ran(Scene::from_files("scene.toml", files).unwrap())
+    };
+    let still = on_stage("");
+    let mut apart = Vec::new();
+    // The pushed part, and what it turns most.
+    for (part, seen) in [
+        (Part::Chest, Node::Chest),
+        (Part::Head, Node::Head),
+        (Part::Head, Node::Chest),
+        (Part::LeftHand, Node::LeftUpperArm),
+    ] {
+        for force_n in [100.0, 300.0, 1000.0] {
+            let push = Push {
+                part,
+                point: None,
+                force_n: DVec3::new(0.0, 0.0, -force_n),
+                frame: PushFrame::Facing,
+                at_secs: 1.0,
+                for_secs: 0.1,
+            };
+            let answer = respond(&file, &RespondJob { pushes: vec![push], ..RespondJob::default() }, None).unwrap();
+            let theirs = peak_deg(answer.pushed.poses(), answer.unpushed.poses(), seen);
+            let pushed = on_stage(&format!(
+                "[[at]]\ntime_secs = 1.0\ncharacter = \"walker\"\ndo = \"push\"\non = \"{}\"\nforce_n = [0, 0, -{force_n}]\nfor_secs = 0.1\nfacing = true\n",
+                part.name()
+            ));
+            let ours = peak_deg(poses(&pushed, "walker"), poses(&still, "walker"), seen);
+            println!("{force_n} N on {part:?}, {seen:?}: command line {theirs:.1}°, stage {ours:.1}°");
+            // A fifth, and what the springs of the stage leave of a small angle.
+            if (ours - theirs).abs() > 0.2 * theirs {
+                apart.push((part, seen, force_n, theirs, ours));
+            }
+        }
+    }
+    assert!(apart.is_empty(), "{apart:?}");
 }

@@ -2,8 +2,9 @@
 
 use super::KdTracker;
 use crate::Wanted;
+use crate::tracker::pose_interpolator::led_to;
 use crate::tracker::{Honours, Tracker, TrackerKind, TrackerStart, Wants};
-use sinew_body::humanoid::{Node, Pose};
+use sinew_body::humanoid::Node;
 use sinew_world::{CharacterId, World};
 
 /// Duration of the transition when the tracker starts in the middle of a run \[s\].
@@ -68,14 +69,4 @@ impl Tracker for KdTracker {
         world.set_reaction_body(character, None);
         world.set_passes_own(character, [0; Node::COUNT]);
     }
-}
-
-/// The pose before one, extrapolated from it and the next.
-fn led_to(now: &Pose, next: &Pose) -> Pose {
-    let mut pose = *now;
-    pose.hips_position += pose.hips_position - next.hips_position;
-    for (rotation, next) in pose.world.iter_mut().zip(next.world) {
-        *rotation = (*rotation * next.conjugate() * *rotation).normalize();
-    }
-    pose
 }
