@@ -302,7 +302,8 @@ impl KdTracker {
         if begins {
             self.clock.begin_frame();
             let Some(body) = world.body(character) else { return };
-            self.begin_frame(body);
+            let hips = world.frame().character(character).map(|frame| frame.part(Node::Hips).position);
+            self.begin_frame(body, hips);
         }
         let raw = self.interpolator.at(self.clock.advance(step_secs));
         if let Start::FromBody(secs) = std::mem::replace(&mut self.start, Start::No) {
@@ -338,12 +339,19 @@ impl KdTracker {
         self.now = next;
     }
 
-    fn begin_frame(&mut self, body: &Body) {
+    /// `hips_at` is where the body's are \[m\].
+    fn begin_frame(&mut self, body: &Body, hips_at: Option<DVec3>) {
         let pose = self.wanted;
         if has_jumped(self.interpolator.end(), &pose) {
             let velocity = self.raw_velocity;
-            self.way =
-                Some(Transition::InertialBlend(InertialBlend::between(body, &self.posed, &pose, velocity, JUMP_SECS)));
+            let off = |pose: &Pose| hips_at.map_or(0.0, |hips| hips.distance(pose.hips_position));
+            if self.carrier.is_none() && off(&pose) + JUMP_M < off(&self.posed) {
+                // The body was kept from its motion, which comes to it.
+                self.begin_where_it_is(JUMP_SECS);
+            } else {
+                let blend = InertialBlend::between(body, &self.posed, &pose, velocity, JUMP_SECS);
+                self.way = Some(Transition::InertialBlend(blend));
+            }
             self.interpolator = PoseInterpolator::rest(&pose);
             (self.raw, self.raw_velocity) = (pose, DVec3::ZERO);
         }
