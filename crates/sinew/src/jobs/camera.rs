@@ -82,7 +82,10 @@ mod tests {
             // A whole period of the sway is averaged.
             assert!((pair[1] - pair[0]).distance(DVec3::Z / 60.0) < 1e-3);
         }
-        assert_eq!((going[0], going[300]), (path(1.0)[0], path(1.0)[300]));
+        // At both ends it is where the body is, to the rounding of a mean.
+        for end in [0, 300] {
+            assert!(going[end].distance(path(1.0)[end]) < 1e-12, "{}", going[end]);
+        }
     }
 
     #[test]
