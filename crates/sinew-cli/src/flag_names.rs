@@ -1,8 +1,9 @@
 //! The library's messages name fields; whoever types reads the options instead.
 
 /// Fields as the library's messages name them, and the options that set them.
-const OPTIONS: [(&str, &str); 10] = [
+const OPTIONS: [(&str, &str); 11] = [
     ("ReachJob::target", "--target X:Y:Z"),
+    ("ReachJob::moving", "--moving X:Y:Z@SECONDS"),
     ("ReachJob::from_secs", "--from"),
     ("Style::print off", "no --print"),
     ("Excerpt::cycle", "--cycle FIRST..LAST"),

@@ -187,7 +187,7 @@ fn endless_loop_does_not_outlive_a_parent_that_is_gone() {
     let question = (0u8, info("while True: pass"), host().limits);
     let bytes = postcard::to_stdvec(&question).unwrap();
     let mut child = Command::new(host().program)
-        .env("SINEW_SCRIPT_PROTOCOL", "1")
+        .env(sinew_script::protocol::VERSION_VARIABLE, sinew_script::protocol::VERSION.to_string())
         .stdin(Stdio::piped())
         .stdout(Stdio::null())
         .spawn()
