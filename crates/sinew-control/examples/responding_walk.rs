@@ -45,6 +45,7 @@ fn panel(scene: &Scene, things: Things, ghost: &Pose, forces: &[PointForce]) -> 
             .collect(),
         follow: Some(ghost.hips_position),
         caption: String::new(),
+        ..Panel::default()
     }
 }
 
