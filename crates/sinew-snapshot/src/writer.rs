@@ -4,6 +4,7 @@
 #[derive(Clone, Debug, Default)]
 pub struct Writer {
     bytes: Vec<u8>,
+    sections: Vec<usize>,
 }
 
 impl Writer {
@@ -15,7 +16,7 @@ impl Writer {
     /// One that writes into `buffer`, which is emptied and keeps its capacity: repeated snapshots allocate once.
     pub fn into_buffer(mut buffer: Vec<u8>) -> Writer {
         buffer.clear();
-        Writer { bytes: buffer }
+        Writer { bytes: buffer, sections: Vec::new() }
     }
 
     /// Appends bytes as they are, without their length.
@@ -41,6 +42,17 @@ impl Writer {
     pub fn blob(&mut self, bytes: &[u8]) {
         self.length(bytes.len());
         self.bytes(bytes);
+    }
+
+    /// Another section begins here. It changes no byte: where two states of one thing are compared, what grew in one section does not
+    /// move the next.
+    pub fn section(&mut self) {
+        self.sections.push(self.bytes.len());
+    }
+
+    /// Where sections begin, in rising order.
+    pub fn sections(&self) -> &[usize] {
+        &self.sections
     }
 
     /// How many bytes were written.

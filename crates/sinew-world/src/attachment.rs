@@ -1,13 +1,15 @@
 //! Attachments: a part attached to a prop or to another character's part, by a rigid joint or a spring.
 
 use crate::rows::joint_impulse;
+use crate::snapshot::Handle;
 use crate::{CharacterId, Entity, World};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer, snapshot};
 
 /// An attachment: a part and the object that it holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Held {
     /// The character that holds.
     pub character: CharacterId,
@@ -30,7 +32,7 @@ pub(crate) struct Attachment {
 }
 
 /// A spring between two points that coincide at rest.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Spring {
     stiffness_n_m: f64,
     damping_n_s_m: f64,
@@ -46,8 +48,8 @@ const SOFT: (f64, f64) = (4.0, 0.7);
 
 impl Attachment {
     /// Ends the joint that holds.
-    pub fn release(&self, joints: &mut ImpulseJointSet) {
-        joints.remove(self.joint, true);
+    pub fn release(&self, removed_joints: &mut Vec<ImpulseJointHandle>) {
+        removed_joints.push(self.joint);
     }
 }
 
@@ -95,7 +97,7 @@ impl World {
         joint.set_local_frame1(a_at.inverse() * anchor);
         joint.set_local_frame2(b_at.inverse() * anchor);
         joint.set_contacts_enabled(false);
-        let joint = self.engine.joints.insert(one, other, joint, true);
+        let joint = self.engine.insert_joint(one, other, joint);
         self.attachments.push(Attachment { held, joint, spring });
     }
 
@@ -104,7 +106,7 @@ impl World {
         if self.characters.get(character).is_none() {
             return self.count_stale();
         }
-        let joints = &mut self.engine.joints;
+        let joints = &mut self.engine.removed_joints;
         self.attachments.retain(|attachment| {
             let held = &attachment.held;
             let stays = !(held.character == character && held.node == node && held.object == object);
@@ -176,7 +178,7 @@ impl World {
             let force_n = self.attachment_force(attachment).length();
             if attachment.held.break_force_n.is_some_and(|limit| force_n > limit) {
                 let attachment = self.attachments.remove(at);
-                self.engine.joints.remove(attachment.joint, true);
+                attachment.release(&mut self.engine.removed_joints);
                 self.broken_holds.push((attachment.held, force_n));
             } else {
                 at += 1;
@@ -184,6 +186,28 @@ impl World {
         }
     }
 }
+
+/// Held things with their joints.
+impl Snapshot for Attachment {
+    fn save(&self, to: &mut Writer) {
+        self.held.save(to);
+        self.joint.save_to(to);
+        self.spring.save(to);
+    }
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        self.held.restore(from)?;
+        self.joint = ImpulseJointHandle::restored(from)?;
+        self.spring.restore(from)
+    }
+}
+
+impl Default for Attachment {
+    fn default() -> Attachment {
+        Attachment { held: Held::default(), joint: ImpulseJointHandle::invalid(), spring: None }
+    }
+}
+
+snapshot!(Spring { stiffness_n_m, damping_n_s_m, before });
 
 /// From a joint's point on its first body to that on its second, world \[m\].
 fn apart(joint: &ImpulseJoint, bodies: &RigidBodySet) -> DVec3 {

@@ -5,10 +5,10 @@ use crate::external_force::Before;
 use crate::extra_shape::ExtraShape;
 use crate::joint::{LimitSpring, Start, write_ball, write_hinge};
 use crate::pin::pin_force;
-use crate::ragdoll::{is_hinge, part_inertia};
+use crate::ragdoll::{is_hinge, part_inertia, part_solid};
 use crate::reaction_body::ReactionBody;
 use crate::warm_start::WarmStart;
-use crate::{CharacterSpec, Drive, Pin};
+use crate::{CharacterSpec, Drive, Pin, Solid};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::{Body, Node};
@@ -45,13 +45,15 @@ pub(crate) struct Character {
     /// Load on each joint's parent at the start of a step.
     pub borne: [WarmStart; Node::COUNT],
     pub extra_shapes: Vec<ExtraShape>,
+    /// Shapes of parts in place of their own.
+    pub solids: [Option<Solid>; Node::COUNT],
     /// Forces of pushes in the next step, and in the last one \[N\].
     pub pushes: [[DVec3; Node::COUNT]; 2],
     /// For the meter.
     pub before: [Before; Node::COUNT],
     /// The reaction body of its pins.
     pub reaction_body: Option<ReactionBody>,
-    stays_awake: bool,
+    pub stays_awake: bool,
 }
 
 impl Character {
@@ -76,6 +78,7 @@ impl Character {
             planes: Vec::new(),
             borne: [WarmStart::default(); Node::COUNT],
             extra_shapes: Vec::new(),
+            solids: Default::default(),
             pushes: [[DVec3::ZERO; Node::COUNT]; 2],
             before: [Before::default(); Node::COUNT],
             reaction_body: None,
@@ -85,6 +88,11 @@ impl Character {
 
     pub fn body(&self) -> &Body {
         &self.spec.body
+    }
+
+    /// The shape of a part now.
+    pub fn solid_of(&self, node: Node) -> Solid {
+        self.solids[node.index()].clone().unwrap_or_else(|| part_solid(self.body(), node))
     }
 
     /// Passes springs, limits and pins to the solver.

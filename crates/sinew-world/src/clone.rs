@@ -60,6 +60,7 @@ impl Clone for Engine {
             gravity: self.gravity,
             ground: self.ground,
             collision_filter: self.collision_filter.clone(),
+            removed_joints: self.removed_joints.clone(),
         };
         engine.set_threads(1);
         engine

@@ -17,6 +17,8 @@ pub(crate) struct CollisionFilter {
     pub floor: Vec<(CharacterId, Node)>,
 }
 
+sinew_snapshot::snapshot!(CollisionFilter { own, props });
+
 impl CollisionFilter {
     /// Makes room for a character, which passes through nothing.
     pub fn add_character(&mut self, character: CharacterId) {

@@ -24,3 +24,5 @@ impl Drive {
         Drive { rotation: DQuat::IDENTITY, velocity: DVec3::ZERO, stiffness: 0.0, damping, torque: DVec3::ZERO }
     }
 }
+
+sinew_snapshot::snapshot!(Drive { rotation, velocity, stiffness, damping, torque });

@@ -22,6 +22,9 @@ pub(crate) struct Engine {
     /// The fixed body that carries the floor and the planes that hold characters.
     pub ground: RigidBodyHandle,
     pub collision_filter: CollisionFilter,
+    /// Joints that are taken out before the next step, and before another one is added. Taken out at once, the library would
+    /// keep until the next step that they are gone, and leave it out of what it serialises.
+    pub removed_joints: Vec<ImpulseJointHandle>,
 }
 
 impl Engine {
@@ -52,6 +55,7 @@ impl Engine {
             gravity: DVec3::new(0.0, -settings.gravity_m_s2, 0.0),
             ground: RigidBodyHandle::invalid(),
             collision_filter: CollisionFilter::default(),
+            removed_joints: Vec::new(),
         };
         // With its feature on, the library would take every core of the machine.
         engine.set_threads(1);
@@ -78,6 +82,40 @@ impl Engine {
     #[cfg(not(feature = "threads"))]
     pub fn set_threads(&mut self, _threads: usize) -> usize {
         1
+    }
+
+    #[cfg(feature = "threads")]
+    fn threads(&self) -> usize {
+        self.pipeline.num_threads().unwrap_or(1)
+    }
+
+    #[cfg(not(feature = "threads"))]
+    fn threads(&self) -> usize {
+        1
+    }
+
+    /// The library's buffers of a step, which know the sets that were there, are made anew.
+    pub fn forget_buffers(&mut self) {
+        let threads = self.threads();
+        (self.pipeline, self.ccd) = (PhysicsPipeline::new(), CCDSolver::new());
+        self.set_threads(threads);
+    }
+
+    /// Takes out the joints that are to be.
+    pub fn remove_joints(&mut self) {
+        for handle in self.removed_joints.drain(..) {
+            self.joints.remove(handle, true);
+        }
+    }
+
+    pub fn insert_joint(
+        &mut self,
+        one: RigidBodyHandle,
+        other: RigidBodyHandle,
+        joint: GenericJoint,
+    ) -> ImpulseJointHandle {
+        self.remove_joints();
+        self.joints.insert(one, other, joint, true)
     }
 
     pub fn step(&mut self) {

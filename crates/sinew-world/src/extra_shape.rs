@@ -11,6 +11,7 @@ pub(crate) struct ExtraShape {
     pub node: Node,
     pub name: String,
     pub collider: ColliderHandle,
+    pub solid: Solid,
 }
 
 /// Shapes that a character may have on top of its own.
@@ -39,7 +40,7 @@ impl World {
         let collider = part_collider(solid, one.spec.surface, character, node).ok_or(SpecError::NoShape)?;
         let body = one.bodies[node.index()];
         let collider = self.engine.colliders.insert_with_parent(collider, body, &mut self.engine.bodies);
-        one.extra_shapes.push(ExtraShape { node, name: name.to_owned(), collider });
+        one.extra_shapes.push(ExtraShape { node, name: name.to_owned(), collider, solid: solid.clone() });
         Ok(())
     }
 

@@ -5,9 +5,10 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, Pose, support_margin_m};
 
 /// A body that can have contacts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Entity {
     /// The ground.
+    #[default]
     Floor,
     /// A prop.
     Prop(PropId),
@@ -15,8 +16,8 @@ pub enum Entity {
     Part(CharacterId, Node),
 }
 
-/// Pose and velocity of a rigid body, in world axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Pose and velocity of a rigid body, in world axes. Default [`BodyState::REST`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyState {
     /// A part's joint to its parent, a prop's origin \[m\].
     pub position: DVec3,
@@ -31,7 +32,7 @@ pub struct BodyState {
 }
 
 /// A contact of two bodies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contact {
     /// The one with the smaller [`Entity`].
     pub a: Entity,
@@ -102,6 +103,13 @@ impl BodyState {
     /// Velocity of a point of the body \[m/s\].
     pub fn velocity_at(&self, point: DVec3) -> DVec3 {
         self.velocity + self.angular_velocity.cross(point - self.centre)
+    }
+}
+
+/// [`CharacterFrame::EMPTY`].
+impl Default for CharacterFrame {
+    fn default() -> CharacterFrame {
+        CharacterFrame::EMPTY
     }
 }
 

@@ -28,6 +28,7 @@
 
 mod attachment;
 mod character;
+mod character_snapshot;
 mod check;
 mod clone;
 mod collision_filter;
@@ -39,6 +40,7 @@ mod frame;
 pub mod frame_bytes;
 mod id;
 mod joint;
+mod library_bytes;
 mod nearest;
 mod pin;
 mod plane;
@@ -53,6 +55,7 @@ mod sanitize;
 mod settings;
 mod sliding;
 mod slots;
+mod snapshot;
 mod solid;
 mod spec;
 mod warm_start;

@@ -64,6 +64,28 @@ impl Pin {
     };
 }
 
+/// [`Pin::LOOSE`].
+impl Default for Pin {
+    fn default() -> Pin {
+        Pin::LOOSE
+    }
+}
+
+sinew_snapshot::snapshot!(Pin {
+    position,
+    rotation,
+    velocity,
+    angular_velocity,
+    acceleration,
+    torque,
+    stiffness,
+    damping,
+    turn_stiffness,
+    turn_damping,
+    gravity_share,
+    max_force_n,
+});
+
 /// Force \[N\] and torque \[N m\] of a pin on a body with these moments of inertia along its axes. (The library's own are along
 /// axes that it chooses: with those of another axis the torque is no longer stable.)
 pub(crate) fn pin_force(body: &RigidBody, inertia: DVec3, pin: &Pin, step_secs: f64, gravity: DVec3) -> (DVec3, DVec3) {

@@ -33,16 +33,15 @@ impl World {
                 ))
                 .contacts_enabled(true)
                 .build();
-            one.planes.push(self.engine.joints.insert(self.engine.ground, handle, joint, true));
+            let ground = self.engine.ground;
+            one.planes.push(self.engine.insert_joint(ground, handle, joint));
         }
     }
 
     /// Frees a character to three dimensions again.
     pub fn free_from_plane(&mut self, character: CharacterId) {
         let Some(one) = self.characters.get_mut(character) else { return self.count_stale() };
-        for joint in one.planes.drain(..) {
-            self.engine.joints.remove(joint, true);
-        }
+        self.engine.removed_joints.append(&mut one.planes);
     }
 
     /// Whether a character is constrained to a plane.

@@ -14,6 +14,8 @@ pub(crate) struct Prop {
     pub acceleration: DVec3,
 }
 
+sinew_snapshot::snapshot!(Prop { acceleration } fixed { spec, handle });
+
 impl Prop {
     pub fn build(engine: &mut Engine, spec: PropSpec, id: PropId) -> Result<Prop, SpecError> {
         let (Some(rotation), Some(velocity), Some(spin), Some(gravity_scale)) = (

@@ -5,9 +5,11 @@
 
 use crate::joint::stop_at;
 use crate::rows::joint_impulse;
+use crate::snapshot::Handle;
 use crate::{Entity, PropJointId, SpecError, World, sanitize};
 use glam::{DQuat, DVec3};
 use rapier3d_f64::prelude::*;
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer, snapshot};
 
 /// Description of a joint.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +67,7 @@ pub enum PropJointKind {
 }
 
 /// The motor of a hinge or a slider.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motor {
     /// Its target.
     pub aim: Aim,
@@ -118,6 +120,35 @@ pub(crate) struct PropJoint {
     before: f64,
 }
 
+snapshot!(enum Aim { 0: Speed(speed), 1: Place(place) });
+snapshot!(Motor { aim, strength });
+
+impl Snapshot for PropJoint {
+    fn save(&self, to: &mut Writer) {
+        let PropJoint { spec, handle, bodies: _, frames: _, before } = self;
+        spec.motor.save(to);
+        handle.map(Handle::parts).save(to);
+        before.save(to);
+    }
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        self.spec.motor.restore(from)?;
+        if self.spec.motor.is_some_and(|motor| !is_motor(&motor, &self.spec.kind)) {
+            return Err(SnapshotError::invalid("motor of a joint"));
+        }
+        let mut handle: Option<(u32, u32)> = None;
+        handle.restore(from)?;
+        self.handle = handle.map(|(index, generation)| ImpulseJointHandle::of(index, generation));
+        self.before.restore(from)
+    }
+}
+
+/// A speed of 0.
+impl Default for Aim {
+    fn default() -> Aim {
+        Aim::Speed(0.0)
+    }
+}
+
 impl World {
     /// Connects two bodies at their present poses. Returns the joint's id.
     ///
@@ -153,7 +184,7 @@ impl World {
         joint.set_contacts_enabled(spec.touches);
         joint.set_local_frame1(frames[0]);
         joint.set_local_frame2(frames[1]);
-        let handle = self.engine.joints.insert(one, other, joint, true);
+        let handle = self.engine.insert_joint(one, other, joint);
         Ok(self.prop_joints.insert(PropJoint { spec, handle: Some(handle), bodies: [one, other], frames, before: 0.0 }))
     }
 
@@ -177,7 +208,7 @@ impl World {
             self.count_stale();
             return false;
         };
-        joint.cut(&mut self.engine.joints)
+        joint.cut(&mut self.engine.removed_joints)
     }
 
     /// The present state of a joint. One that does not exist is not whole.
@@ -209,7 +240,7 @@ impl World {
     pub(crate) fn break_prop_joints(&mut self) {
         let step_secs = self.settings.step_secs();
         let sub_step_secs = step_secs / self.engine.parameters.num_solver_iterations as f64;
-        let (joints, bodies) = (&mut self.engine.joints, &self.engine.bodies);
+        let (joints, bodies) = (&self.engine.joints, &self.engine.bodies);
         for prop_joint in self.prop_joints.values_mut() {
             let (Some(limit), Some(handle)) = (prop_joint.spec.break_force_n, prop_joint.handle) else { continue };
             let Some(joint) = joints.get(handle) else { continue };
@@ -223,8 +254,7 @@ impl World {
                 _ => joint_impulse(joint, bodies).length() / sub_step_secs,
             };
             if force_n > limit {
-                joints.remove(handle, true);
-                prop_joint.handle = None;
+                prop_joint.cut(&mut self.engine.removed_joints);
             }
         }
     }
@@ -232,9 +262,9 @@ impl World {
 
 impl PropJoint {
     /// Ends it. False when it was cut or broken before.
-    pub fn cut(&mut self, joints: &mut ImpulseJointSet) -> bool {
+    pub fn cut(&mut self, removed_joints: &mut Vec<ImpulseJointHandle>) -> bool {
         let Some(handle) = self.handle.take() else { return false };
-        joints.remove(handle, true);
+        removed_joints.push(handle);
         true
     }
 

@@ -2,18 +2,32 @@
 
 use crate::engine::Engine;
 use crate::external_force::Before;
+use crate::snapshot::Handle;
 use crate::{CharacterId, PropId, World};
 use glam::DVec3;
 use rapier3d_f64::prelude::*;
 use sinew_body::humanoid::Node;
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer};
 
 /// A prop, and the reaction of the pins on it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct ReactionBody {
     prop: RigidBodyHandle,
     /// Low-pass filtered force of the pins on the body, and torque about the prop's centre of mass.
     force: DVec3,
     torque: DVec3,
+}
+
+impl Snapshot for ReactionBody {
+    fn save(&self, to: &mut Writer) {
+        self.prop.save_to(to);
+        (self.force, self.torque).save(to);
+    }
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        self.prop = RigidBodyHandle::restored(from)?;
+        self.force.restore(from)?;
+        self.torque.restore(from)
+    }
 }
 
 impl World {

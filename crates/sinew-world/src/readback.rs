@@ -51,9 +51,7 @@ impl World {
         let (mut mass, mut moment, mut momentum) = (0.0, DVec3::ZERO, DVec3::ZERO);
         for node in Node::ALL {
             let Some(body) = self.engine.bodies.get(character.bodies[node.index()]) else { continue };
-            let mut state = state_of(body);
-            // Before its first step the library has not computed a body's centre of mass.
-            state.centre = state.position + state.rotation * character.spec.body.link(node).centre;
+            let state = part_state(body, character, node);
             let part_mass = character.spec.body.link(node).mass_kg;
             mass += part_mass;
             moment += state.centre * part_mass;
@@ -255,6 +253,13 @@ impl CharacterFrame {
         external: [ExternalForces::NONE; Node::COUNT],
         was_reset: false,
     };
+}
+
+/// A part as its body has it.
+pub(crate) fn part_state(body: &RigidBody, character: &Character, node: Node) -> BodyState {
+    let state = state_of(body);
+    // Before its first step the library has not computed a body's centre of mass.
+    BodyState { centre: state.position + state.rotation * character.spec.body.link(node).centre, ..state }
 }
 
 fn state_of(body: &RigidBody) -> BodyState {

@@ -64,13 +64,13 @@ impl World {
     /// When the id is stale.
     pub fn remove_prop_joint(&mut self, joint: PropJointId) -> Result<(), SpecError> {
         let mut removed = self.prop_joints.remove(joint).ok_or(SpecError::StalePropJoint(joint))?;
-        removed.cut(&mut self.engine.joints);
+        removed.cut(&mut self.engine.removed_joints);
         Ok(())
     }
 
     /// Ends what fastens things to something, and its contacts in the frame.
     fn let_go_of(&mut self, is_it: impl Fn(Entity) -> bool) {
-        let joints = &mut self.engine.joints;
+        let joints = &mut self.engine.removed_joints;
         self.attachments.retain(|attachment| {
             let stays = !is_it(attachment.held.object);
             if !stays {
@@ -88,6 +88,7 @@ impl World {
 impl Engine {
     /// Takes a body out, with its colliders and joints.
     fn remove_body(&mut self, handle: RigidBodyHandle) {
+        self.remove_joints();
         // The library wakes what rested on a collider only when that is taken out by itself.
         let colliders = self.bodies.get(handle).map(|body| body.colliders().to_vec()).unwrap_or_default();
         for collider in colliders {

@@ -95,6 +95,20 @@ impl<I: SlotId, T> Slots<I, T> {
         self.slots.iter_mut().filter_map(|slot| slot.value.as_mut())
     }
 
+    /// Generation of each slot, and whether it is vacant.
+    pub fn places(&self) -> impl Iterator<Item = (u32, bool)> {
+        self.slots.iter().map(|slot| (slot.generation, slot.value.is_none()))
+    }
+
+    /// Vacates a slot for the value of a generation, or keeps the value that is there. False when it has another.
+    pub fn set_place(&mut self, slot: usize, generation: u32, is_vacant: bool) -> bool {
+        let Some(slot) = self.slots.get_mut(slot) else { return false };
+        if is_vacant {
+            *slot = Slot { generation, value: None };
+        }
+        slot.generation == generation && slot.value.is_none() == is_vacant
+    }
+
     /// Who is in a slot.
     pub fn id_in(&self, slot: usize) -> Option<I> {
         let found = self.slots.get(slot)?;

@@ -55,8 +55,25 @@ pub enum Form {
     },
 }
 
+sinew_snapshot::snapshot!(Solid { form, centre, rotation });
+sinew_snapshot::snapshot!(enum Form {
+    0: Ball { radius_m },
+    1: Box { size_m },
+    2: Capsule { radius_m, length_m },
+    3: Ring { radius_m, tube_m },
+    4: Mesh { points_m, triangles },
+    5: Hull { points_m },
+});
+
 /// Number of pieces of a ring: enough that no corner deviates by more than a hundredth of the radius.
 pub const RING_PIECES: usize = 16;
+
+/// A ball of 10 cm at the origin.
+impl Default for Solid {
+    fn default() -> Solid {
+        Solid::new(Form::Ball { radius_m: 0.1 })
+    }
+}
 
 impl Solid {
     /// A form at the origin.

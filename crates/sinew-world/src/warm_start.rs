@@ -17,6 +17,8 @@ pub(crate) struct WarmStart {
     pub torque: DVec3,
 }
 
+sinew_snapshot::snapshot!(WarmStart { force, torque });
+
 /// Share of the force that is carried over. With all of it springs at rest are exact with any number of sweeps; but
 /// then the transients of a fall decay slowly, and a standing body jitters twice as much.
 const SHARE: f64 = 0.95;

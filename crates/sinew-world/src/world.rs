@@ -111,6 +111,7 @@ impl World {
     /// One physics step: passes springs and pins to the solver, moves everything, and updates the [`World::frame`].
     pub fn step(&mut self) {
         let step_secs = self.settings.step_secs();
+        self.engine.remove_joints();
         for character in self.characters.values_mut() {
             character.prepare(&mut self.engine, step_secs);
         }
@@ -340,6 +341,12 @@ impl World {
             PartShape::Other(solid) => Some(solid),
             PartShape::None => None,
         };
+        let other = match &shape {
+            PartShape::Other(solid) => Some(solid.clone()),
+            PartShape::Own => None,
+            // The collider keeps the shape that it has.
+            PartShape::None => one.solids[node.index()].take(),
+        };
         let form = solid.map(|solid| solid.shape().ok_or(SpecError::NoShape)).transpose()?;
         collider.set_enabled(solid.is_some());
         let mut inertia = ragdoll::part_inertia(one.body(), node);
@@ -353,6 +360,7 @@ impl World {
             collider.set_position_wrt_parent(solid.placement());
             collider.user_data = tag(Entity::Part(character, node));
         }
+        one.solids[node.index()] = other;
         if let Some(body) = self.engine.bodies.get_mut(one.bodies[node.index()]) {
             body.set_additional_mass_properties(MassProperties::new(link.centre, link.mass_kg, inertia), true);
         }
@@ -435,12 +443,15 @@ fn spread_inertia(bounds: &rapier3d_f64::parry::bounding_volume::Aabb, about: DV
 pub const MAX_FORCE_N: f64 = 1e5;
 
 /// The collision shape of a part, for [`World::set_shape`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum PartShape {
     /// The body's own.
+    #[default]
     Own,
     /// Another shape, in the part's frame.
     Other(crate::Solid),
     /// No shape: it passes through everything.
     None,
 }
+
+sinew_snapshot::snapshot!(enum PartShape { 0: Own, 1: Other(solid), 2: None });
