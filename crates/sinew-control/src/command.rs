@@ -347,16 +347,19 @@ pub enum Action {
 }
 
 /// The three layers of control (Shapiro et al. 2007, section 6).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Layer {
     /// Key poses and pose graphs.
+    #[default]
     Poses,
     /// Python controllers.
     Scripts,
     /// Controllers in Rust.
     Reflexes,
 }
+
+sinew_snapshot::snapshot!(enum Layer { 0: Poses, 1: Scripts, 2: Reflexes });
 
 fn yes() -> bool {
     true
@@ -375,6 +378,13 @@ impl Action {
                 | Action::ScriptKilled { .. }
                 | Action::Edit { .. }
         )
+    }
+}
+
+/// A line without words.
+impl Default for Command {
+    fn default() -> Command {
+        Command::stage(Action::Say { text: String::new() })
     }
 }
 

@@ -25,6 +25,8 @@ pub struct FreeRoot {
     was_placed: bool,
 }
 
+sinew_snapshot::snapshot!(FreeRoot { position, rotation, sole_m, feet, was_placed });
+
 /// Height above the other foot at which a foot does not stand \[m\].
 const LIFTED_M: f64 = 0.04;
 

@@ -34,6 +34,7 @@ pub mod range;
 mod reach_order;
 pub mod reflex;
 pub mod source;
+mod text_snapshot;
 pub mod tracker;
 mod wanted;
 

@@ -2,6 +2,7 @@
 
 use crate::{OrderError, OrderErrorKind, range};
 use serde::{Deserialize, Serialize};
+use sinew_snapshot::{Snapshot, snapshot};
 
 /// Which hand reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -51,6 +52,20 @@ pub struct ReachOrder<N = String> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_secs: Option<f64>,
 }
+
+snapshot!(enum ReachHand { 0: Auto, 1: Left, 2: Right, 3: Both });
+snapshot!([N: Snapshot + Default] ReachOrder<N> {
+    hand,
+    object,
+    target_m,
+    left_m,
+    right_m,
+    grasp,
+    avoid,
+    flexibility,
+    speed_m_s,
+    time_secs,
+});
 
 impl<N> Default for ReachOrder<N> {
     fn default() -> ReachOrder<N> {

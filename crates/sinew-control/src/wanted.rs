@@ -57,6 +57,10 @@ pub struct Wanted {
     pub root: Root,
 }
 
+sinew_snapshot::snapshot!(JointTarget { rotation, velocity, gain, damping, torque });
+sinew_snapshot::snapshot!(enum Root { 0: Free, 1: Placed });
+sinew_snapshot::snapshot!(Wanted { joints, pose, root });
+
 impl JointTarget {
     /// Straight, with the joint's own gains.
     pub const REST: JointTarget =

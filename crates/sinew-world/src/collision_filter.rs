@@ -17,7 +17,7 @@ pub(crate) struct CollisionFilter {
     pub floor: Vec<(CharacterId, Node)>,
 }
 
-sinew_snapshot::snapshot!(CollisionFilter { own, props });
+sinew_snapshot::snapshot!(CollisionFilter { own, props, floor });
 
 impl CollisionFilter {
     /// Makes room for a character, which passes through nothing.

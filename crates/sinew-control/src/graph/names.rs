@@ -14,6 +14,8 @@ pub enum Touchable {
     Character(CharacterId),
 }
 
+sinew_snapshot::snapshot!(enum Touchable { 0: One(thing), 1: Character(id) });
+
 /// The scene's names: characters, objects, and aliases of parts. Own parts and `ground` need not be among them.
 pub trait Names {
     /// The object of a name.

@@ -53,6 +53,11 @@ impl GraphPlayer {
         GraphPlayer { state: graph.start, steps: 0, step_secs }
     }
 
+    /// Whether it is in a state that this graph has.
+    pub(crate) fn is_of(&self, graph: &Graph) -> bool {
+        self.state < graph.states.len()
+    }
+
     /// Enters a state by name; false if it does not exist.
     pub fn jump(&mut self, graph: &Graph, name: &str) -> bool {
         let found = graph.state(name);

@@ -111,6 +111,20 @@ impl BodyProportions {
     }
 }
 
+/// In the T-pose with the hips at the origin, at time 0.
+impl Default for PerformerSample {
+    fn default() -> PerformerSample {
+        PerformerSample {
+            time_secs: 0.0,
+            number: None,
+            status: SampleStatus::Tracked,
+            hips_um: [0; 3],
+            turns_e6: [[0, 0, 0, E6 as i32]; Part::COUNT],
+            build: None,
+        }
+    }
+}
+
 impl PerformerSample {
     /// A sample from the position of the hips \[m\] and `parent_from_part` rotations in the order of [`Part::ALL`].
     /// Numbers that are not finite give the status [`SampleStatus::NonFinite`].

@@ -44,6 +44,8 @@ pub struct Blend {
     until_secs: f64,
 }
 
+sinew_snapshot::snapshot!(Blend { base, over, began_secs, until_secs } fixed { weight, is_layered });
+
 impl SourceKind for BlendSpec {
     fn check(&self, _: &SourceSpec, exists: &dyn Fn(Named) -> Result<(), OrderError>) -> Result<(), SourceFault> {
         if self.depth() > MAX_DEPTH {

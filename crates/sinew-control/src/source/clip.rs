@@ -4,6 +4,7 @@ use super::Source;
 use crate::{Root, Wanted};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Body, Node, Pose};
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer, snapshot};
 use std::sync::Arc;
 
 /// Poses at a constant rate, placed on the stage.
@@ -18,15 +19,59 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Debug)]
 pub struct ClipSource {
-    /// Shared by all copies; one that is resumed has its own from then on.
+    /// As they were given; shared by all copies.
+    given: Arc<[Pose]>,
+    /// As they are placed; a clip that is resumed has its own from then on.
     poses: Arc<[Pose]>,
     /// The same low-passed, where the response needs it.
     smooth: Option<Arc<[Pose]>>,
+    given_smooth: Option<Arc<[Pose]>>,
+    /// How they were placed, one placement after the other.
+    placements: Vec<Placement>,
     hz: f64,
     start_secs: f64,
     /// When it was resumed, if it was \[s of the stage\].
     resumed_secs: Option<f64>,
 }
+
+/// A turn about the vertical, and a shift over the ground.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Placement {
+    turn: DQuat,
+    /// The point that is moved, and where it comes to lie \[m\].
+    from: DVec3,
+    to: DVec3,
+}
+
+snapshot!(Placement { turn, from, to });
+
+/// The poses are found again from their placements: each rounds, so they are carried out one after the other.
+impl Snapshot for ClipSource {
+    fn save(&self, to: &mut Writer) {
+        let ClipSource { given: _, poses: _, smooth: _, given_smooth: _, placements, hz: _, start_secs, resumed_secs } = self;
+        placements.save(to);
+        start_secs.save(to);
+        resumed_secs.save(to);
+    }
+
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        let mut placements: Vec<Placement> = Vec::new();
+        placements.restore(from)?;
+        if placements.len() > MAX_PLACEMENTS {
+            return Err(SnapshotError::invalid("number of placements of a clip"));
+        }
+        if placements != self.placements {
+            (self.poses, self.placements) = (Arc::clone(&self.given), Vec::new());
+            self.smooth.clone_from(&self.given_smooth);
+            placements.iter().for_each(|placement| self.place(*placement));
+        }
+        self.start_secs.restore(from)?;
+        self.resumed_secs.restore(from)
+    }
+}
+
+/// Placements that a snapshot may hold: more than a day of reaches, one in ten seconds.
+const MAX_PLACEMENTS: usize = 10_000;
 
 /// Time in which a resumed clip reaches its own pace \[s\].
 const STARTS_SECS: f64 = 0.8;
@@ -44,14 +89,36 @@ const LATER_M2_PER_S: f64 = 0.01;
 impl ClipSource {
     /// Poses at a rate \[Hz\], of which the one at `start_secs` is the stage's first.
     pub fn of_poses(poses: Vec<Pose>, hz: f64, start_secs: f64) -> ClipSource {
-        ClipSource { poses: poses.into(), smooth: None, hz, start_secs, resumed_secs: None }
+        let given: Arc<[Pose]> = poses.into();
+        ClipSource {
+            poses: Arc::clone(&given),
+            given,
+            smooth: None,
+            given_smooth: None,
+            placements: Vec::new(),
+            hz,
+            start_secs,
+            resumed_secs: None,
+        }
     }
 
     /// With the same poses low-passed, for the response: what it shows are the clip's own.
     #[must_use]
     pub fn with_smooth(mut self, poses: Vec<Pose>) -> ClipSource {
-        self.smooth = (!poses.is_empty()).then(|| poses.into());
+        self.given_smooth = (!poses.is_empty()).then(|| poses.into());
+        self.smooth.clone_from(&self.given_smooth);
         self
+    }
+
+    fn place(&mut self, placement: Placement) {
+        let Placement { turn, from, to } = placement;
+        let smooth = self.smooth.iter_mut().flat_map(Arc::make_mut);
+        for pose in Arc::make_mut(&mut self.poses).iter_mut().chain(smooth) {
+            let moved = turn * (pose.hips_position - from);
+            pose.hips_position = DVec3::new(to.x, from.y, to.z) + moved;
+            pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
+        }
+        self.placements.push(placement);
     }
 
     /// The clip's own poses.
@@ -88,13 +155,7 @@ impl ClipSource {
         let from_secs = best.unwrap_or(self.start_secs).max(0.0);
         let here = self.pose_of(&self.poses, from_secs);
         let turn = DQuat::from_rotation_y(heading_rad(at) - heading_rad(&here));
-        let (from, to) = (here.hips_position, at.hips_position);
-        let smooth = self.smooth.iter_mut().flat_map(Arc::make_mut);
-        for pose in Arc::make_mut(&mut self.poses).iter_mut().chain(smooth) {
-            let moved = turn * (pose.hips_position - from);
-            pose.hips_position = DVec3::new(to.x, from.y, to.z) + moved;
-            pose.world = pose.world.map(|rotation| (turn * rotation).normalize());
-        }
+        self.place(Placement { turn, from: here.hips_position, to: at.hips_position });
         self.start_secs = from_secs - now_secs;
     }
 

@@ -8,6 +8,7 @@ use crate::{OrderError, OrderErrorKind};
 use crate::{Root, Wanted};
 use glam::DVec3;
 use sinew_body::humanoid::{Limb, Node};
+use sinew_snapshot::{Reader, Snapshot, SnapshotError, Writer};
 use sinew_world::CharacterFrame;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -41,6 +42,44 @@ pub struct KeyPoses {
     /// The wanted pose at the end of the step.
     now: Wanted,
     step_secs: f64,
+}
+
+/// The book, which does not change, says which states a graph has.
+impl Snapshot for KeyPoses {
+    fn save(&self, to: &mut Writer) {
+        let KeyPoses { book: _, player, pose, graph, signals, now, step_secs: _ } = self;
+        player.save(to);
+        pose.save(to);
+        graph.is_some().save(to);
+        if let Some((name, player)) = graph {
+            name.save(to);
+            player.save(to);
+        }
+        signals.save(to);
+        now.save(to);
+    }
+
+    fn restore(&mut self, from: &mut Reader<'_>) -> Result<(), SnapshotError> {
+        self.player.restore(from)?;
+        self.pose.restore(from)?;
+        let mut has_graph = false;
+        has_graph.restore(from)?;
+        self.graph = None;
+        if has_graph {
+            let mut name = String::new();
+            name.restore(from)?;
+            let graph = self.book.graphs.get(&name).ok_or(SnapshotError::invalid("pose graph"))?;
+            let mut player = GraphPlayer::new(graph, self.step_secs);
+            player.restore(from)?;
+            if !player.is_of(graph) {
+                return Err(SnapshotError::invalid("state of a pose graph"));
+            }
+            self.graph = Some((name, player));
+        }
+        self.signals.restore(from)?;
+        self.signals.truncate(MAX_SIGNALS);
+        self.now.restore(from)
+    }
 }
 
 /// Maximum number of signals that wait for a step.

@@ -8,6 +8,7 @@ mod kinds;
 mod performer;
 mod reach;
 mod sources;
+mod sources_snapshot;
 mod spec;
 
 pub use clip::ClipSource;
@@ -22,6 +23,7 @@ pub use spec::{Named, SOURCE_KINDS, SourceContext, SourceFault, SourceKind, Sour
 use crate::graph::Cause;
 use crate::{Root, Wanted};
 use sinew_body::humanoid::{Body, Pose};
+use sinew_snapshot::Snapshot;
 use sinew_world::{CharacterFrame, CharacterId, Frame};
 use std::any::Any;
 use std::fmt::Debug;
@@ -64,6 +66,8 @@ pub enum SourceEvent {
 
 /// Gives the wanted pose of one character.
 ///
+/// What it remembers is kept by [`Snapshot`], and restored into a source that was built in the same way.
+///
 /// Each step of physics: [`advance`](Source::advance) once, then [`wanted`](Source::wanted) and [`firmness`](Source::firmness) as
 /// often as the tracker asks ([`Wants`](crate::tracker::Wants)). None of them panics; asked again for the same time they give the same.
 ///
@@ -79,7 +83,7 @@ pub enum SourceEvent {
 /// assert_eq!(wanted.root, Root::Placed);
 /// assert!((wanted.pose.hips_position.z - 0.05).abs() < 1e-12);
 /// ```
-pub trait Source: Any + Debug + Send + Sync {
+pub trait Source: Snapshot + Any + Debug + Send + Sync {
     /// A copy of it with all its state, which goes on to the same bits: a snapshot of a stage holds one. Motions that do not change are
     /// shared (`Arc`), not copied.
     fn cloned(&self) -> Box<dyn Source>;

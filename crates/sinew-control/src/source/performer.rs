@@ -49,6 +49,9 @@ pub struct Performer {
     acts: Acts,
 }
 
+sinew_snapshot::snapshot!(enum Acts { 0: Understudy, 1: Performer, 2: Others });
+sinew_snapshot::snapshot!(Performer { source, acts } fixed { has_understudy });
+
 /// The state of the performer's stream changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StreamChange {

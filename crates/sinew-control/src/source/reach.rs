@@ -5,6 +5,7 @@ use crate::{ReachHand, ReachOrder, Root, Wanted};
 use glam::DVec3;
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_reach::{Flight, Goal, Obstacle, Reacher, Start, Style, StyleError};
+use sinew_snapshot::snapshot;
 use sinew_world::{BodyState, CharacterId, Entity, Frame, Held, PropId};
 
 /// The target of a hand.
@@ -58,7 +59,7 @@ pub struct ReachSource {
 }
 
 /// What flies, and when it is met.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Meets {
     prop: PropId,
     gravity_m_s2: f64,
@@ -67,6 +68,31 @@ struct Meets {
     secs: f64,
     at: DVec3,
 }
+
+/// The origin.
+impl Default for Aimed {
+    fn default() -> Aimed {
+        Aimed::Point(DVec3::ZERO)
+    }
+}
+
+snapshot!(enum Aimed { 0: Point(point), 1: Prop(prop, offset), 2: Held(prop, point) });
+snapshot!(Meets { prop, gravity_m_s2, drag_per_s, secs, at });
+snapshot!(enum Phase { 0: Reaching, 1: Rising, 2: Leaving(since_secs) });
+snapshot!(ReachSource {
+    reacher,
+    order,
+    began_secs,
+    ordered_secs,
+    number,
+    aimed,
+    meets,
+    phase,
+    has_arrived,
+    is_there,
+    left_secs,
+    has_resumed,
+} fixed { character, step_secs });
 
 /// Events of a reach with effects outside it.
 #[expect(clippy::large_enum_variant, reason = "one for a step; a box would allocate during a run")]

@@ -1,7 +1,9 @@
 //! The sources of a character, and their precedence.
 
 use super::reach::ReachStep;
-use super::{HAND_OVER_SECS, KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, handed_over};
+use super::{
+    HAND_OVER_SECS, KeyPoses, Moment, Performer, PoseBook, ReachSource, Source, SourceEvent, SourceSpec, handed_over,
+};
 use crate::{FreeRoot, Root, Wanted};
 use crate::{OrderError, OrderErrorKind};
 use sinew_body::humanoid::{Body, Node, Pose};
@@ -17,14 +19,28 @@ pub struct Sources {
     book: Arc<PoseBook>,
     /// The initial key pose.
     first: String,
-    own: Box<dyn Source>,
+    pub(super) own: Box<dyn Source>,
+    /// What its own source was made from.
+    pub(super) own_from: Origin,
     /// What was its own before, and since when it hands over \[s\].
-    before: Option<(Box<dyn Source>, f64)>,
-    performer: Option<Performer>,
-    reach: Option<ReachSource>,
+    pub(super) before: Option<(Box<dyn Source>, Origin, f64)>,
+    pub(super) performer: Option<Performer>,
+    pub(super) reach: Option<ReachSource>,
     /// The root for sources without root motion.
-    root: FreeRoot,
+    pub(super) root: FreeRoot,
     step_secs: f64,
+}
+
+/// What a source was made from, so that it can be made again.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum Origin {
+    /// The book's key poses.
+    #[default]
+    KeyPoses,
+    /// It was there at the start.
+    Start,
+    /// A source that was stated later.
+    Stated(Box<SourceSpec>),
 }
 
 impl Sources {
@@ -32,6 +48,7 @@ impl Sources {
     pub fn new(body: &Body, book: Arc<PoseBook>, first: &str, start: &Pose, step_secs: f64) -> Sources {
         Sources {
             own: Box::new(KeyPoses::new(Arc::clone(&book), first, step_secs)),
+            own_from: Origin::KeyPoses,
             body: body.clone(),
             book,
             first: first.to_owned(),
@@ -43,19 +60,31 @@ impl Sources {
         }
     }
 
-    /// Sets its own source: stops following a performer, ends a reach.
+    /// Sets its own source at the start: stops following a performer, ends a reach.
     pub fn follow(&mut self, own: Box<dyn Source>) {
-        self.own = own;
+        (self.own, self.own_from) = (own, Origin::Start);
         self.leave_others();
     }
 
     /// As [`follow`](Sources::follow), in the middle of a run: what it followed before hands over from this time of the stage on \[s\].
-    pub fn follow_from(&mut self, own: Box<dyn Source>, now_secs: f64) {
+    /// `spec` is what the source was built from.
+    pub fn follow_from(&mut self, own: Box<dyn Source>, spec: &SourceSpec, now_secs: f64) {
         let before = std::mem::replace(&mut self.own, own);
+        let from = std::mem::replace(&mut self.own_from, Origin::Stated(Box::new(spec.clone())));
         if !self.is_performed() {
-            self.before = Some((before, now_secs));
+            self.before = Some((before, from, now_secs));
         }
         self.leave_others();
+    }
+
+    /// Key poses of the book in its first pose.
+    pub(super) fn first_poses(&self) -> KeyPoses {
+        KeyPoses::new(Arc::clone(&self.book), &self.first, self.step_secs)
+    }
+
+    /// Length of a step of physics \[s\].
+    pub(super) fn step_secs(&self) -> f64 {
+        self.step_secs
     }
 
     /// The key poses and graphs that it can follow.
@@ -66,7 +95,7 @@ impl Sources {
     /// Key poses and graphs were read anew, on the same body.
     pub fn set_book(&mut self, book: Arc<PoseBook>) {
         self.own.set_book(&book);
-        if let Some((before, _)) = &mut self.before {
+        if let Some((before, ..)) = &mut self.before {
             before.set_book(&book);
         }
         self.book = book;
@@ -163,7 +192,7 @@ impl Sources {
         if on {
             match self.key_poses_mut() {
                 Some(poses) => poses.rest(),
-                None => self.own = Box::new(KeyPoses::new(Arc::clone(&self.book), &self.first, self.step_secs)),
+                None => (self.own, self.own_from) = (Box::new(self.first_poses()), Origin::KeyPoses),
             }
         }
         Ok(())
@@ -177,9 +206,9 @@ impl Sources {
         if let Some(poses) = self.key_poses_mut() {
             change(poses)?;
         } else {
-            let mut poses = KeyPoses::new(Arc::clone(&self.book), &self.first, self.step_secs);
+            let mut poses = self.first_poses();
             change(&mut poses)?;
-            self.own = Box::new(poses);
+            (self.own, self.own_from) = (Box::new(poses), Origin::KeyPoses);
         }
         self.leave_others();
         Ok(())
@@ -224,7 +253,7 @@ impl Sources {
 
     fn wanted_without_reach(&self, at_secs: f64, wanted: &mut Wanted) {
         match &self.before {
-            Some((before, since_secs)) if !self.is_performed() => {
+            Some((before, _, since_secs)) if !self.is_performed() => {
                 let to = |secs: f64, wanted: &mut Wanted| self.own.wanted(secs, wanted);
                 self.hand_over(before.as_ref(), to, *since_secs, at_secs, wanted);
             }
@@ -348,11 +377,11 @@ impl Sources {
             }
             ReachStep::Over => self.reach = None,
         }
-        if self.before.as_ref().is_some_and(|(_, since_secs)| now_secs - since_secs >= HAND_OVER_SECS) {
+        if self.before.as_ref().is_some_and(|(.., since_secs)| now_secs - since_secs >= HAND_OVER_SECS) {
             self.before = None;
         }
         let moment = Moment { frame, own, body: &self.body, step_secs: self.step_secs, has_poses_layer };
-        if let Some((before, _)) = &mut self.before {
+        if let Some((before, ..)) = &mut self.before {
             before.advance(&moment, events);
         }
         self.own.advance(&moment, events);

@@ -21,6 +21,8 @@ pub enum TrackerKind {
     None,
 }
 
+sinew_snapshot::snapshot!(enum TrackerKind { 0: Kinematic, 1: Pd, 2: Kd, 3: Response, 4: None });
+
 /// The inputs that a tracker honours beside the wanted pose. Inputs that it does not honour are refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Honours {

@@ -50,6 +50,8 @@ pub enum KdPreset {
     Glider,
 }
 
+sinew_snapshot::snapshot!(enum KdPreset { 0: Default, 1: Balloon, 2: Stapler, 3: Giant, 4: Glider });
+
 impl KdPreset {
     /// All of them.
     pub const ALL: [KdPreset; 5] =
