@@ -59,7 +59,7 @@ pub struct Wanted {
 
 sinew_snapshot::snapshot!(JointTarget { rotation, velocity, gain, damping, torque });
 sinew_snapshot::snapshot!(enum Root { 0: Free, 1: Placed });
-sinew_snapshot::snapshot!(Wanted { joints, pose, root });
+sinew_snapshot::snapshot!(Wanted { joints, pose, smooth, root });
 
 impl JointTarget {
     /// Straight, with the joint's own gains.

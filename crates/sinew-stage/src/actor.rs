@@ -16,20 +16,22 @@ use std::sync::Arc;
 pub struct Actor {
     pub(crate) id: CharacterId,
     pub(crate) sources: Sources,
-    tracker: Box<dyn Tracker>,
-    wanted: Wanted,
-    reflexes: Vec<(Box<dyn Reflex>, bool)>,
-    layers: [bool; 3],
+    pub(crate) tracker: Box<dyn Tracker>,
+    /// The tracker is the one of the start.
+    pub(crate) has_first_tracker: bool,
+    pub(crate) wanted: Wanted,
+    pub(crate) reflexes: Vec<(Box<dyn Reflex>, bool)>,
+    pub(crate) layers: [bool; 3],
     /// The joints' own springs, before any factor.
-    springs: Gains,
+    pub(crate) springs: Gains,
     /// k_sg, the global gain (Shapiro et al. 2007, EQ3), and a factor for each joint on top \[1\].
-    global_gain: f64,
-    joint_gain: [f64; Node::COUNT],
+    pub(crate) global_gain: f64,
+    pub(crate) joint_gain: [f64; Node::COUNT],
     /// How often it was told to reach.
     pub(crate) reaches: u64,
     /// Hands, left 0 and right 1, and the props that they pass through.
     pub(crate) through: Vec<(usize, PropId)>,
-    step_secs: f64,
+    pub(crate) step_secs: f64,
 }
 
 impl Actor {
@@ -47,6 +49,7 @@ impl Actor {
             id,
             sources: Sources::new(body, book, pose, start, step_secs),
             tracker: Box::new(PdTracker::with(springs.clone())),
+            has_first_tracker: false,
             wanted: Wanted::STANDING,
             reflexes: Vec::new(),
             layers: [true; 3],
@@ -184,6 +187,7 @@ impl Actor {
         if tracker.wants() == Wants::Joints {
             self.sources.match_body(character);
         }
+        self.has_first_tracker = false;
         std::mem::replace(&mut self.tracker, tracker).release(world, self.id);
         let is_motion = self.sources.own().motion().is_some();
         let motion = |secs: f64| self.sources.own_pose_at(secs);

@@ -3,6 +3,7 @@
 use crate::Stage;
 use crate::step::step_of;
 use sinew_body::humanoid::Node;
+use sinew_snapshot::snapshot;
 use sinew_world::{CharacterId, Entity, PropId};
 
 /// Something that gravity acts on.
@@ -15,7 +16,7 @@ pub enum Weighs {
 }
 
 /// A factor on gravity on its way.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fade {
     what: Weighs,
     from: f64,
@@ -33,6 +34,16 @@ impl Fade {
         }
     }
 }
+
+/// The hips of the first character.
+impl Default for Weighs {
+    fn default() -> Weighs {
+        Weighs::Part(CharacterId::default(), Node::Hips)
+    }
+}
+
+snapshot!(enum Weighs { 0: Part(character, node), 1: Prop(prop) });
+snapshot!(Fade { what, from, to, begin_step, end_step } valid |fade| fade.begin_step < fade.end_step);
 
 impl Stage {
     /// Brings factors on gravity to a value, over a time or at once. Whatever was on its way stops.

@@ -28,6 +28,7 @@
 //! What it does not do: pictures, sockets, the command line. Python runs in another process, whose program the caller names.
 
 mod actor;
+mod actor_snapshot;
 mod apply;
 mod apply_reach;
 mod basis;
@@ -41,6 +42,7 @@ mod motion_source;
 pub mod order;
 mod own_rig;
 mod pacer;
+mod packed;
 mod populate;
 mod reach_aim;
 mod reach_through;
@@ -53,6 +55,7 @@ pub mod scene;
 mod script_snapshot;
 mod scripts;
 mod snapshot;
+mod snapshot_bytes;
 mod snapshots;
 mod source_context;
 mod stage;
@@ -76,6 +79,7 @@ pub use runner::{Finished, Observer, Runner};
 pub use sample_walk::{SampleWalkError, sample_walk_bvh};
 pub use scene::{Scene, SceneError, SceneErrorKind, scene_schema};
 pub use snapshot::{RestoreError, StageSnapshot};
+pub use snapshot_bytes::{SNAPSHOT_VERSION, SnapshotBytesError};
 pub use stage::Stage;
 pub use take::{Take, TakeError, TakeErrorKind};
 pub use timeline::{KnownTake, SeekError, Timeline};

@@ -7,7 +7,8 @@ use crate::scene::Scene;
 use crate::step::step_of;
 use sinew_control::graph::Touchable;
 use sinew_control::{Command, OrderError};
-use sinew_world::Frame;
+use sinew_snapshot::snapshot;
+use sinew_world::{Entity, Frame};
 
 #[derive(Clone)]
 pub(crate) struct Reactions {
@@ -27,6 +28,25 @@ struct Waiting {
     /// The first step in which it may fire; `None` when it is done.
     ready_at: Option<u64>,
 }
+
+/// Nothing that happens; for reading one.
+impl Default for Waiting {
+    fn default() -> Waiting {
+        Waiting {
+            touching: [Touchable::One(Entity::Floor); 2],
+            line: 0,
+            names: Default::default(),
+            order: Order::default(),
+            command: Command::default(),
+            repeat_after: None,
+            ready_at: None,
+        }
+    }
+}
+
+snapshot!(Reactions { list });
+snapshot!(Waiting { touching, line, names, order, command, repeat_after, ready_at }
+    valid |waiting| waiting.repeat_after.is_none_or(|steps| steps <= u64::MAX / 4));
 
 impl Reactions {
     pub fn of(scene: &Scene, cast: &Cast) -> Result<Reactions, OrderError> {

@@ -6,6 +6,7 @@ use crate::event::{Cause, Effect};
 use crate::script_snapshot::{names, snapshot};
 use sinew_control::{Action, Command, OrderError, OrderErrorKind};
 use sinew_script::{Script, ScriptHost, ScriptState, StartInfo};
+use sinew_snapshot::snapshot;
 use sinew_world::{CharacterId, PropId};
 
 /// What a controller runs.
@@ -16,13 +17,23 @@ pub(crate) enum Owner {
 }
 
 /// What a snapshot keeps of a controller.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub(crate) struct KeptScript {
     pub owner: Owner,
     /// Its name in the scene.
     pub name: String,
     pub state: ScriptState,
 }
+
+/// The first character.
+impl Default for Owner {
+    fn default() -> Owner {
+        Owner::Character(CharacterId::default())
+    }
+}
+
+snapshot!(enum Owner { 0: Character(id), 1: Prop(id) });
+snapshot!(KeptScript { owner, name, state });
 
 /// A controller that runs a character or a prop.
 pub(crate) struct Running {

@@ -21,30 +21,30 @@ use std::sync::Arc;
 
 /// The state of a stage between two steps; see [`Stage::snapshot`].
 ///
-/// It is a value in memory: what does not change (meshes, clips, poses) is shared with the stage. To keep a run in a file, keep its
-/// [`Take`](crate::Take).
+/// It is a value in memory: what does not change (meshes, clips, poses) is shared with the stage. [`StageSnapshot::to_bytes`] makes it
+/// bytes for a file. To hand a run to somebody else, hand over its [`Take`](crate::Take).
 #[derive(Clone)]
 pub struct StageSnapshot {
     /// The scene that the stage was made from.
-    scene: Arc<Scene>,
+    pub(crate) scene: Arc<Scene>,
     /// The scene that ran, as edited, and its cast.
-    running_scene: Arc<Scene>,
-    cast: Cast,
-    world: World,
-    actors: BTreeMap<CharacterId, Actor>,
-    timed_effects: TimedEffects,
-    shapes: BTreeMap<(CharacterId, Node), (ShapeChoice, PartShape)>,
-    events: Events,
-    reactions: Reactions,
-    broken: BTreeSet<PropJointId>,
-    running: Option<toml::Table>,
-    keys: Vec<KeyBinding>,
-    timed: Vec<(u64, usize, Order)>,
-    hash: RunHash,
-    inbox: Vec<(Command, bool)>,
-    history: Vec<Vec<Order>>,
-    record: Vec<Stamped>,
-    scripts: Vec<KeptScript>,
+    pub(crate) running_scene: Arc<Scene>,
+    pub(crate) cast: Cast,
+    pub(crate) world: World,
+    pub(crate) actors: BTreeMap<CharacterId, Actor>,
+    pub(crate) timed_effects: TimedEffects,
+    pub(crate) shapes: BTreeMap<(CharacterId, Node), (ShapeChoice, PartShape)>,
+    pub(crate) events: Events,
+    pub(crate) reactions: Reactions,
+    pub(crate) broken: BTreeSet<PropJointId>,
+    pub(crate) running: Option<toml::Table>,
+    pub(crate) keys: Vec<KeyBinding>,
+    pub(crate) timed: Vec<(u64, usize, Order)>,
+    pub(crate) hash: RunHash,
+    pub(crate) inbox: Vec<(Command, bool)>,
+    pub(crate) history: Vec<Vec<Order>>,
+    pub(crate) record: Vec<Stamped>,
+    pub(crate) scripts: Vec<KeptScript>,
 }
 
 /// Why a snapshot is not restored.

@@ -147,7 +147,7 @@ impl Stage {
         let nothing = || OrderError::new(OrderErrorKind::Contradiction, "it states no source of its own");
         let own = source.build(&context)?.ok_or_else(nothing)?;
         let now_secs = frame.time_secs;
-        self.actor_mut(id)?.sources.follow_from(own, now_secs);
+        self.actor_mut(id)?.sources.follow_from(own, source, now_secs);
         Ok(())
     }
 }

@@ -13,6 +13,7 @@ use crate::reaction::Reactions;
 use crate::run_hash::RunHash;
 use crate::scene::{CharacterSpec, HeldFile, KeyBinding, PropSpec, Scene};
 use crate::scripts::{Owner, Running};
+use crate::snapshot_bytes::Start;
 use crate::step::step_of;
 use crate::take::{self, Stamped, Take};
 use crate::timed_effect::TimedEffects;
@@ -60,6 +61,8 @@ pub struct Stage {
     /// The scene's own commands that are still to come, the next one last.
     pub(crate) timed: Vec<(u64, usize, Order)>,
     pub(crate) hash: RunHash,
+    /// The stage as it was built, to which bytes of a snapshot are relative; `None` only while it is built.
+    pub(crate) start: Option<Arc<Start>>,
 }
 
 impl Stage {
@@ -113,10 +116,15 @@ impl Stage {
             keys,
             timed,
             hash: RunHash::new(),
+            start: None,
         };
         let first = Arc::clone(&stage.scene);
         let all = Newcomers::all(&first);
         build::begin(&mut stage, &all.characters, &all.props)?;
+        for actor in stage.actors.values_mut() {
+            actor.has_first_tracker = true;
+        }
+        stage.start = Some(Arc::new(Start::of(&stage)));
         Ok(stage)
     }
 

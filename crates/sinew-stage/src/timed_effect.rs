@@ -4,10 +4,11 @@ use crate::cast::Cast;
 use crate::fade::{Fade, Weighs};
 use crate::order::{CharacterOrder, Order, StageOrder};
 use glam::DVec3;
+use sinew_snapshot::snapshot;
 use sinew_world::{CharacterId, Entity};
 
 /// A force that lasts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct LastingPush {
     /// On what.
     pub on: Entity,
@@ -29,6 +30,9 @@ pub struct TimedEffects {
     /// Factors on gravity that are on their way.
     pub fades: Vec<Fade>,
 }
+
+snapshot!(LastingPush { on, at, force, until_step });
+snapshot!(TimedEffects { endings, pushes, fades });
 
 /// Pushes that act at the same time; further ones are refused.
 pub const MAX_PUSHES: usize = 1000;

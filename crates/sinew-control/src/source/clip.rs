@@ -48,7 +48,8 @@ snapshot!(Placement { turn, from, to });
 /// The poses are found again from their placements: each rounds, so they are carried out one after the other.
 impl Snapshot for ClipSource {
     fn save(&self, to: &mut Writer) {
-        let ClipSource { given: _, poses: _, smooth: _, given_smooth: _, placements, hz: _, start_secs, resumed_secs } = self;
+        let ClipSource { given: _, poses: _, smooth: _, given_smooth: _, placements, hz: _, start_secs, resumed_secs } =
+            self;
         placements.save(to);
         start_secs.save(to);
         resumed_secs.save(to);

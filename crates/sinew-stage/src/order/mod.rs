@@ -25,6 +25,7 @@ mod character_order;
 mod resolve;
 mod resolve_character;
 mod resolve_stage;
+mod snapshot;
 mod stage_order;
 mod text;
 mod undo;

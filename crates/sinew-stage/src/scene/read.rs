@@ -181,6 +181,13 @@ impl Scene {
         self.name == other.name && self.sets == other.sets && files(self) == files(other)
     }
 
+    /// A hash of all that [`Scene::is_same_as`] compares.
+    pub(crate) fn fingerprint(&self) -> u64 {
+        let files = self.held.iter().map(|(path, held)| (path, held.hash)).collect::<Vec<_>>();
+        let compared = serde_json::to_vec(&(&self.name, &self.sets, files)).unwrap_or_default();
+        xxhash_rust::xxh3::xxh3_64(&compared)
+    }
+
     /// What [`Scene::set`] changed.
     pub fn sets(&self) -> &[(String, String)] {
         &self.sets

@@ -37,7 +37,7 @@ pub struct Reaction {
 }
 
 /// A command when a key is pressed: `[[keys]]`.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct KeyBinding {
     /// The key: a letter, a digit, or a name such as `Space` or `ArrowUp`. Several commands may share a key.
@@ -49,6 +49,8 @@ pub struct KeyBinding {
     #[schemars(flatten)]
     pub command: Command,
 }
+
+sinew_snapshot::snapshot!(KeyBinding { key, label, command });
 
 /// A table whose own keys are taken out; what remains is a command. Serde's `flatten` would accept unknown keys.
 struct Entry {

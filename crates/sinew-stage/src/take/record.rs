@@ -34,13 +34,15 @@ pub struct Take {
 }
 
 /// A command and its step.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stamped {
     /// Physics steps done before it.
     pub step: u64,
     /// The command.
     pub command: Command,
 }
+
+sinew_snapshot::snapshot!(Stamped { step, command });
 
 /// A file of a take.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -16,6 +16,7 @@ mod scene_sets;
 mod scenes_page;
 mod schema;
 mod snapshot;
+mod snapshot_bytes;
 mod stage;
 mod takes;
 mod timeline;

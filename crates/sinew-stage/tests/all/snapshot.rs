@@ -9,15 +9,15 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Half a second at 240 Hz.
-const HALF: usize = 120;
+pub const HALF: usize = 120;
 
-fn run(stage: &mut Stage, steps: usize) -> u64 {
+pub fn run(stage: &mut Stage, steps: usize) -> u64 {
     (0..steps).for_each(|_| stage.step());
     stage.hash()
 }
 
 /// All shipped scenes that need no Python host.
-fn shipped() -> Vec<PathBuf> {
+pub fn shipped() -> Vec<PathBuf> {
     let scenes = std::fs::read_dir(repository("scenes")).unwrap().map(|entry| entry.unwrap().path());
     let mut scenes: Vec<PathBuf> =
         scenes.filter(|path| path.extension().is_some_and(|extension| extension == "toml")).collect();

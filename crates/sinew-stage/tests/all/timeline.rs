@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
 use sinew_control::{Action, Command};
-use sinew_stage::{Runner, Scene, SeekError, Stage, Timeline};
+use sinew_stage::{EditOutcome, Runner, Scene, SeekError, Stage, StageSnapshot, Timeline};
 
 const SCENE: &str = "format = 1\n[characters.one]\nreflexes = [\"balance\"]\n\
                      [props.ball]\nball_radius_m = 0.1\nmass_kg = 2\nposition_m = [0.1, 2.5, 0.3]\n\
@@ -151,4 +151,36 @@ fn snapshots_of_a_long_run_are_bounded_and_so_is_what_a_seek_runs() {
         assert!(timeline.steps_run() - before <= long / 16, "to {step}: {}", timeline.steps_run() - before);
         assert_eq!(stage.hash(), hashes[step as usize - 1]);
     }
+}
+
+#[test]
+fn a_scene_that_was_edited_is_sought_backwards_and_goes_on_as_a_what_if() {
+    let mut stage = stage();
+    let mut timeline = Timeline::new(&mut stage).unwrap();
+    run(&mut stage, &mut timeline, 100, &[]);
+    let edited = stage.edit(&SCENE.replace("mass_kg = 2", "mass_kg = 2\ngravity_scale = 0.1")).unwrap();
+    assert_eq!(edited.iter().map(|one| one.outcome).collect::<Vec<_>>(), [EditOutcome::Applied]);
+    let first = run(&mut stage, &mut timeline, 240, &[]);
+    let height = |stage: &Stage| stage.frame().props[0].position.y;
+    let light = height(&stage);
+
+    // Before the edit, in the step that follows it, and long after it, everything is as it was.
+    for step in [30, 101, 170] {
+        timeline.seek(&mut stage, step).unwrap();
+        assert!(
+            run(&mut stage, &mut timeline, 240, &[]).ends_with(&first[step.max(100) as usize - 100..]),
+            "from {step}"
+        );
+    }
+    // What if it had not been edited: another take, through bytes, in another stage.
+    timeline.what_if(&mut stage, 99).unwrap();
+    let bytes = stage.snapshot().to_bytes(&stage).unwrap();
+    let mut other = self::stage();
+    other.restore(&StageSnapshot::from_bytes(&bytes, &other).unwrap()).unwrap();
+    let second = run(&mut stage, &mut timeline, 240, &[]);
+    (99..240).for_each(|_| other.step());
+    assert_eq!(other.hash(), second[140]);
+    assert!(height(&stage) < light - 0.05, "the ball weighs again: {} {light}", height(&stage));
+    timeline.go_to(&mut stage, 0, 240).unwrap();
+    assert_eq!((stage.hash(), height(&stage)), (first[139], light));
 }
