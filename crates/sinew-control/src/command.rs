@@ -1,8 +1,10 @@
-//! Everything that changes a running stage from outside: user, script, scene time line, network and take speak in this type
-//! alone, so that recording, replay and remote play are one mechanism.
+//! Commands: the only way to change a running stage from outside. Users, scripts, a scene's time line, the network and takes
+//! all send this one type, so recording, replay and remote play share one mechanism.
 //!
-//! Names are those of the scene file: characters, objects, poses, graphs. Body parts are VRM 1.0 names. Vectors are
-//! `[x, y, z]` in metres, newtons or m/s, in the world's axes (Y up) unless said otherwise.
+//! Names (characters, props, poses, graphs) are those of the scene file; body parts are VRM 1.0 humanoid bones. Vectors are
+//! `[x, y, z]` in the world frame (Y up) unless stated otherwise, in metres, newtons or m/s. A command takes effect at the
+//! beginning of the next physics step. Ranges are checked when a command is resolved to an order (`Order`); a command out of
+//! range is refused with an event and changes nothing.
 
 use crate::ReachOrder;
 use crate::perform::PerformerSample;
@@ -13,10 +15,10 @@ use serde::{Deserialize, Serialize};
 /// One change to a running stage.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 pub struct Command {
-    /// The character that it is for; `None` for what concerns the stage or an object.
+    /// The character to command; `None` for the stage or a prop.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub character: Option<String>,
-    /// What is to happen.
+    /// The change to make.
     #[serde(flatten)]
     pub action: Action,
 }
@@ -25,323 +27,323 @@ pub struct Command {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Action {
-    /// Aim at a key pose from now on; stops a pose graph and lets go of an IK target.
+    /// Move to a key pose and hold it. Stops a running pose graph and releases IK targets.
     Pose {
-        /// Its name.
+        /// Name of the pose.
         name: String,
     },
-    /// Start a pose graph at its first state, or at another.
+    /// Start a pose graph.
     Graph {
-        /// Its name.
+        /// Name of the graph.
         name: String,
-        /// The state to begin with.
+        /// State to start in; the graph's first state by default.
         #[serde(default)]
         state: Option<String>,
     },
-    /// Fire the graph transitions that wait for this word (a script's test).
+    /// Fire the graph transitions that wait for this signal.
     Signal {
-        /// The word.
+        /// Name of the signal.
         name: String,
     },
-    /// Bring a limb's end to a point and take the joint angles into the wanted pose.
+    /// Move the end of a limb to a point by inverse kinematics; the joint angles found become part of the wanted pose.
     Ik {
-        /// The part or alias whose limb reaches; `None` for the limb that something is attached to, else the right hand.
+        /// Part or alias at the end of the limb; by default the limb that holds something, else the right hand.
         #[serde(default)]
         link: Option<String>,
-        /// Where to, in the world \[m\].
+        /// Target position, world frame \[m\].
         target_m: [f64; 3],
     },
-    /// Let a limb go back to the key pose; all limbs when no link is named.
+    /// Release an IK target: the limb returns to the key pose.
     IkRelease {
-        /// The part or alias.
+        /// Part or alias at the end of the limb; all limbs by default.
         #[serde(default)]
         link: Option<String>,
     },
-    /// Fasten an object (or another character's part, `name.part`) to a part.
+    /// Attach a prop, or another character's part (`name.part`), to a part.
     Attach {
-        /// The part or alias.
+        /// Part or alias that holds.
         link: String,
-        /// What is held; the nearest thing within reach of the part when left out.
+        /// What to hold; the nearest thing within reach of the part by default.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         object: String,
-        /// A spring instead of a rigid joint.
+        /// Hold by a spring instead of a rigid joint.
         #[serde(default)]
         soft: bool,
-        /// Breaks above this force \[N\].
+        /// Force at which the attachment breaks \[N\]; unbreakable by default.
         #[serde(default)]
         break_n: Option<f64>,
     },
-    /// Let go again.
+    /// Detach what a part holds.
     Detach {
-        /// The part or alias.
+        /// Part or alias that holds.
         link: String,
-        /// What was held; everything when left out.
+        /// What to let go of; everything by default.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         object: String,
     },
-    /// A force on a part, or on an object when `character` is `None`.
+    /// Apply a constant force to a part, or to a prop when `character` is `None`.
     Push {
-        /// The part, or the object's name.
+        /// Part or prop to push.
         on: String,
-        /// The force \[N\].
+        /// Force \[N\], world frame or, with `facing`, the character's.
         force_n: [f64; 3],
-        /// For how long \[s\].
+        /// Duration \[s\].
         for_secs: f64,
-        /// Axes of the character's facing (x left, y up, z forward) instead of the world's.
+        /// The force is given in the character's facing frame (x left, y up, z forward).
         #[serde(default)]
         facing: bool,
-        /// Where it acts, in the part's or object's own frame \[m\]; its centre of mass when left out.
+        /// Point of application, frame of the part or prop \[m\]; its centre of mass by default.
         #[serde(default)]
         at_m: Option<[f64; 3]>,
     },
-    /// Scale all joint gains of the character (EQ3's global gain).
+    /// Scale the gains of a character's joint springs (global gain k_sg of Shapiro et al. 2007, EQ3).
     Gain {
-        /// Factor on the stiffness, 1 as in the scene.
+        /// Factor on the stiffness; 1 is the scene's own.
         factor: f64,
-        /// Only this part's joint.
+        /// Only the joint of this part; all joints by default.
         #[serde(default)]
         part: Option<String>,
     },
-    /// Switch physics off on parts: they become kinematic and their velocity decays.
+    /// Switch physics off for parts: they become kinematic and their velocity decays.
     ForcesOff {
-        /// The parts; empty means the root (hips).
+        /// The parts; the hips when empty.
         #[serde(default)]
         parts: Vec<String>,
-        /// For how long \[s\]; until [`Action::ForcesOn`] when left out.
+        /// Duration \[s\]; until [`Action::ForcesOn`] by default.
         #[serde(default)]
         for_secs: Option<f64>,
     },
-    /// Switch physics on again.
+    /// Switch physics on again for parts.
     ForcesOn {
-        /// The parts; empty means all.
+        /// The parts; all when empty.
         #[serde(default)]
         parts: Vec<String>,
     },
-    /// Hold the whole character to the vertical plane of its facing, or of a given one.
+    /// Constrain the character to a vertical plane (2D simulation).
     Plane {
-        /// Facing of the plane \[degrees about +Y from +Z to +X\]; the character's own when left out.
+        /// Heading of the plane \[degrees about +Y from +Z to +X\]; the character's own facing by default.
         #[serde(default)]
         facing_deg: Option<f64>,
-        /// For how long \[s\]; until [`Action::PlaneOff`] when left out.
+        /// Duration \[s\]; until [`Action::PlaneOff`] by default.
         #[serde(default)]
         for_secs: Option<f64>,
     },
-    /// Free the character to three dimensions again.
+    /// Remove the plane constraint.
     PlaneOff {},
-    /// Scale gravity for a character (or for an object by `on`).
+    /// Scale gravity for a character, or for the prop `on`.
     Gravity {
-        /// 1 as on Earth, 0 for none.
+        /// Factor on the scene's gravity: 1 is normal, 0 is weightless.
         scale: f64,
-        /// The object, when `character` is `None`.
+        /// The prop, when `character` is `None`.
         #[serde(default)]
         on: Option<String>,
-        /// Only this part of the character.
+        /// Only this part of the character; the whole body by default.
         #[serde(default)]
         part: Option<String>,
-        /// Time over which the factor comes to this from what it is \[s\]; at once when left out.
+        /// Ramp time from the present factor to `scale` \[s\]; immediate by default.
         #[serde(default)]
         over_secs: Option<f64>,
-        /// For how long \[s\]; until changed again when left out.
+        /// Duration \[s\]; until changed again by default.
         #[serde(default)]
         for_secs: Option<f64>,
     },
-    /// Drive a joint of the scene: at most one of the four aims is stated; with none the joint is let go.
+    /// Drive a joint of the scene. Give at most one of the four targets; with none the motor is off.
     Motor {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
-        /// A hinge's speed \[rad/s\].
+        /// Hinge: target speed \[rad/s\].
         #[serde(default)]
         speed_rad_s: Option<f64>,
-        /// A hinge's angle from where it was at the start \[degrees\].
+        /// Hinge: target angle, from the angle at the start of the scene \[degrees\].
         #[serde(default)]
         angle_deg: Option<f64>,
-        /// A slider's speed \[m/s\].
+        /// Slider: target speed \[m/s\].
         #[serde(default)]
         speed_m_s: Option<f64>,
-        /// A slider's shift from where it was at the start \[m\].
+        /// Slider: target position, from the position at the start of the scene \[m\].
         #[serde(default)]
         shift_m: Option<f64>,
     },
-    /// Cut a joint of the scene for good.
+    /// Remove a joint of the scene permanently.
     Cut {
-        /// The joint.
+        /// Name of the joint.
         joint: String,
     },
-    /// Swap a part's collision shape for one named in the scene (`skis`), or back to its own with `own`.
+    /// Replace a part's collision shape.
     Shape {
         /// The part.
         part: String,
-        /// A named shape of the scene; `own` for the part's own, `none` to take it away.
+        /// A named shape of the scene (`skis`), `own` for the part's own shape, or `none` for no collisions.
         shape: String,
-        /// For how long \[s\]; until changed again when left out.
+        /// Duration \[s\]; until changed again by default.
         #[serde(default)]
         for_secs: Option<f64>,
     },
-    /// Add one of the scene's shapes to a part, on top of what it has; it weighs nothing.
+    /// Add a massless collision shape of the scene to a part, beside the shapes that it has.
     AddShape {
         /// The part.
         part: String,
         /// A named shape of the scene.
         shape: String,
-        /// For how long \[s\]; until removed when left out.
+        /// Duration \[s\]; until removed by default.
         #[serde(default)]
         for_secs: Option<f64>,
     },
-    /// Take a shape away again that was added.
+    /// Remove a shape that [`Action::AddShape`] added.
     RemoveShape {
         /// The part.
         part: String,
-        /// Its name.
+        /// Name of the shape.
         shape: String,
     },
-    /// Switch one of the three layers on or off.
+    /// Switch one of a character's three control layers on or off.
     Layer {
-        /// Which.
+        /// The layer.
         layer: Layer,
         /// On or off.
         on: bool,
     },
-    /// Select a reflex by name (`balance`) and switch the layer on.
+    /// Enable a reflex (`balance`) and switch the reflex layer on, or disable it.
     Reflex {
-        /// Its name.
+        /// Name of the reflex.
         name: String,
         /// On or off.
         #[serde(default = "yes")]
         on: bool,
     },
-    /// Start a Python controller of the scene (class name), or stop it with an empty name.
+    /// Start one of the scene's Python controllers, or stop the present one.
     Controller {
-        /// Its name in the scene.
+        /// Name of the controller in the scene; empty to stop.
         name: String,
     },
-    /// Hold parts more or less firmly: to their places, to their joint angles (tracker `kd`).
+    /// Tracker `kd`: scale how strongly parts are held to their positions and joint angles.
     Weights {
-        /// The parts; empty means all.
+        /// The parts; all when empty.
         #[serde(default)]
         parts: Vec<String>,
-        /// How far they are held to their places: 1 as the gains say, 0 not at all; as it was when left out.
+        /// Weight of the position pins: 1 uses the full gains, 0 switches them off; unchanged by default.
         #[serde(default)]
         pin: Option<f64>,
-        /// How far their joints are held to their angles.
+        /// Weight of the joint springs; unchanged by default.
         #[serde(default)]
         joint: Option<f64>,
-        /// How long the change takes \[s\]; half a second when left out.
+        /// Blend time \[s\]; 0.5 by default.
         #[serde(default)]
         fade_secs: Option<f64>,
-        /// For how long, then as before \[s\]; until changed again when left out.
+        /// Duration, after which the old weights return \[s\]; until changed again by default.
         #[serde(default)]
         for_secs: Option<f64>,
     },
-    /// Other gains of the tracker `kd`; what is left out stays as it is, or as the preset has it when one is named.
+    /// Tracker `kd`: change gains. A field that is left out keeps its value, or takes the preset's when one is named.
     Kd {
-        /// Gains for a purpose.
+        /// Named set of gains.
         #[serde(default)]
         preset: Option<KdPreset>,
-        /// Stiffness that holds parts to their places \[1/s², per unit mass\].
+        /// Stiffness of the position pins \[1/s², per unit mass\].
         #[serde(default)]
         k_p: Option<f64>,
-        /// Its damping \[1/s, per unit mass\].
+        /// Damping of the position pins \[1/s, per unit mass\].
         #[serde(default)]
         d_p: Option<f64>,
-        /// Stiffness of joints \[1/s², per unit of the inertia of what hangs from them\].
+        /// Stiffness of the joint springs \[1/s², per unit of inertia of the subtree\].
         #[serde(default)]
         k_q: Option<f64>,
-        /// Its damping \[1/s, per unit of inertia\].
+        /// Damping of the joint springs \[1/s, per unit of inertia of the subtree\].
         #[serde(default)]
         d_q: Option<f64>,
-        /// Against the performer's velocity or against the ground.
+        /// Whether damping acts on the velocity relative to the performer or to the ground.
         #[serde(default)]
         damping: Option<KdDamping>,
-        /// Give the forces that the performer's motion itself needs.
+        /// Add the feed-forward forces of the performer's own motion.
         #[serde(default)]
         feed_forward: Option<bool>,
-        /// How long the change takes \[s\]; half a second when left out.
+        /// Blend time \[s\]; 0.5 by default.
         #[serde(default)]
         fade_secs: Option<f64>,
-        /// For how long, then as before \[s\]; until changed again when left out.
+        /// Duration, after which the old gains return \[s\]; until changed again by default.
         #[serde(default)]
         for_secs: Option<f64>,
     },
-    /// Switch the kinematic forces of the tracker `kd` off, so that the body falls freely, or on again.
+    /// Tracker `kd`: switch the external forces of the position pins on or off; without them the body falls freely.
     Pins {
         /// On or off.
         on: bool,
-        /// How long the change takes \[s\]; half a second when left out.
+        /// Blend time \[s\]; 0.5 by default.
         #[serde(default)]
         fade_secs: Option<f64>,
-        /// For how long, then the other way round \[s\]; until changed again when left out.
+        /// Duration, after which the switch goes back \[s\]; until changed again by default.
         #[serde(default)]
         for_secs: Option<f64>,
     },
-    /// Follow with another tracker from now on.
+    /// Change the tracker, the way in which the body follows its source.
     Tracker {
         /// `kinematic`, `pd`, `kd` or `response`.
         name: String,
     },
-    /// Hand a prop a new place or velocity.
+    /// Set the position or velocity of a prop.
     Place {
-        /// The object.
+        /// Name of the prop.
         object: String,
-        /// Where its centre is to be \[m\].
+        /// Position of its centre, world frame \[m\]; unchanged by default.
         #[serde(default)]
         position_m: Option<[f64; 3]>,
-        /// Its velocity \[m/s\].
+        /// Linear velocity, world frame \[m/s\]; unchanged by default.
         #[serde(default)]
         velocity_m_s: Option<[f64; 3]>,
     },
-    /// Give a kinematic prop (a platform) an acceleration for a while.
+    /// Accelerate a kinematic prop, such as a platform.
     Accelerate {
-        /// The object.
+        /// Name of the prop.
         object: String,
-        /// The acceleration \[m/s²\].
+        /// Acceleration, world frame \[m/s²\].
         acceleration_m_s2: [f64; 3],
-        /// For how long \[s\].
+        /// Duration \[s\].
         for_secs: f64,
     },
-    /// Read a controller's file again and go on with it.
+    /// Reload a Python controller.
     Reload {
-        /// Its name in the scene.
+        /// Name of the controller in the scene.
         name: String,
-        /// The new text; `None` reads the scene's file.
+        /// New source text; the scene's file is read again by default.
         #[serde(default)]
         text: Option<String>,
     },
-    /// A script was stopped because it did not come back; recorded so that a replay stops it at the same step.
+    /// A script was stopped because it exceeded a limit. Recorded so that a replay stops it at the same step; a user cannot send it.
     ScriptKilled {
-        /// Its name in the scene.
+        /// Name of the controller in the scene.
         name: String,
-        /// Why.
+        /// The limit that it exceeded.
         reason: String,
     },
-    /// The scene was edited while it ran: recorded so that a replay edits it at the same step. Nobody else can give it.
+    /// The scene was edited while it ran. Recorded so that a replay edits it at the same step; a user cannot send it.
     #[schemars(skip)]
     Edit {
-        /// The whole text of the scene file.
+        /// Full text of the edited scene file.
         text: String,
     },
-    /// A sample of a live performer arrives.
+    /// Deliver one sample of a live performer.
     Perform {
-        /// What the capture system says.
+        /// The sample.
         sample: Box<PerformerSample>,
     },
-    /// Let a live performer's character follow its performer, or something else for a while.
+    /// Let a character follow its live performer, or its understudy for a while.
     Live {
-        /// On or off.
+        /// On to follow the performer.
         on: bool,
     },
-    /// Follow another source of its own from now on, within half a second: a pose, a graph, a clip, or another kind without `live` and
-    /// `reach`. Clips are among the scene's files.
+    /// Change the character's source; the motion blends over half a second. Takes every kind except `live` and `reach`; a clip must
+    /// be among the scene's files.
     Source {
-        /// As in a character's table.
+        /// The source, written as in a character's table of the scene.
         source: Box<SourceSpec>,
     },
-    /// Reach for something with arms, spine, head and legs, from whatever pose the character is in.
+    /// Reach for a target with arms, spine, head and legs, starting from the present pose.
     Reach(ReachOrder),
-    /// Let go of a reach: stand up, then back to the clip or pose of before.
+    /// End a reach: stand up, then return to the source of before.
     ReachEnd {},
-    /// A line for the report's list of events.
+    /// Add a line of text to the events of the report.
     Say {
-        /// The words.
+        /// The text.
         text: String,
     },
 }
@@ -366,7 +368,7 @@ fn yes() -> bool {
 }
 
 impl Action {
-    /// Whether it is for the stage, its props, joints and controllers, whichever character is named beside it.
+    /// Whether the action concerns the stage, its props, joints or controllers; a character named beside it is ignored.
     pub fn is_for_stage(&self) -> bool {
         matches!(
             self,
@@ -381,7 +383,7 @@ impl Action {
     }
 }
 
-/// A line without words.
+/// [`Action::Say`] with an empty text.
 impl Default for Command {
     fn default() -> Command {
         Command::stage(Action::Say { text: String::new() })

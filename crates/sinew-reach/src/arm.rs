@@ -74,7 +74,7 @@ impl Carried {
     }
 
     /// Carries it from its present rotation on. `turns`: its rotation a moment before, now, and a moment after.
-    fn take_over(&mut self, now: f64, turns: [DQuat; 3], moment: f64) {
+    fn continue_from(&mut self, now: f64, turns: [DQuat; 3], moment: f64) {
         let [before, at, after] = turns;
         let (back, on) = (log(at.conjugate() * before), log(at.conjugate() * after));
         let velocity = ((on - back) / (2.0 * moment)).clamp_length_max(MAX_SPEED_RAD_S);
@@ -133,7 +133,7 @@ impl Arm {
     /// upper arm, lower arm and hand a moment before, now, and after.
     pub fn set_out(&mut self, now: f64, turns: [[DQuat; 3]; 3], moment: f64) {
         for joint in 0..3 {
-            self.carried[1 + joint].take_over(now, turns.map(|all| all[joint]), moment);
+            self.carried[1 + joint].continue_from(now, turns.map(|all| all[joint]), moment);
         }
         self.share = MinimumJerk::rest(0.0);
         self.by_joints = MinimumJerk::rest(0.0);

@@ -1,7 +1,7 @@
 //! From the controls of one instant to a pose: trunk, arms and legs by closed form, the hips where the balance puts them.
 
 use crate::frame::Frame;
-use crate::head::{look, shared};
+use crate::head::{gaze_rotation, shared};
 use crate::heel::{Heel, raised};
 use crate::leg_place::Foot;
 use crate::spine::{root_shift, swing_shares, twist_shares};
@@ -140,7 +140,7 @@ impl Frame {
             // Head and arms move rigidly with the trunk between iterations: the error of the centre of mass is a
             // millimetre or two.
             if round == 0 || round + 1 == ROUNDS {
-                let faced = |at: DVec3| look(chest.conjugate() * (at - hips_at - neck_at));
+                let faced = |at: DVec3| gaze_rotation(chest.conjugate() * (at - hips_at - neck_at));
                 let (neck, head) = shared(now.look_at.map_or(now.head, faced));
                 let neck = chest * (neck * exp(now.trunk[1]));
                 composed.pose.world[Node::Neck.index()] = neck.normalize();

@@ -26,7 +26,7 @@ pub struct HandPath {
     /// p_s \[m\].
     pub from: DVec3,
     /// d_h = p_e − p_s \[m\].
-    pub way: DVec3,
+    pub displacement: DVec3,
     /// Start velocity **v**_s, EQ1 \[m/s\].
     pub velocity: DVec3,
     /// Deceleration **a** of the last part, EQ2 \[m/s²\].
@@ -37,17 +37,17 @@ pub struct HandPath {
     pub total_secs: f64,
 }
 
-sinew_snapshot::snapshot!(HandPath { from, way, velocity, deceleration, ratio, total_secs });
+sinew_snapshot::snapshot!(HandPath { from, displacement, velocity, deceleration, ratio, total_secs });
 
 impl HandPath {
     /// The path from one point to another \[m\] with a start speed \[m/s\] and the ratio r_s, 0 to 1 (excluded).
     pub fn new(from: DVec3, to: DVec3, speed_m_s: f64, ratio: f64) -> HandPath {
-        let way = to - from;
-        let velocity = way.normalize_or_zero() * speed_m_s; // EQ1
-        let total_secs = 2.0 * way.length() / (speed_m_s * (ratio + 1.0)); // EQ4
+        let displacement = to - from;
+        let velocity = displacement.normalize_or_zero() * speed_m_s; // EQ1
+        let total_secs = 2.0 * displacement.length() / (speed_m_s * (ratio + 1.0)); // EQ4
         let slowing = total_secs * (1.0 - ratio);
         let deceleration = if slowing > 0.0 { -velocity / slowing } else { DVec3::ZERO }; // EQ2
-        HandPath { from, way, velocity, deceleration, ratio, total_secs }
+        HandPath { from, displacement, velocity, deceleration, ratio, total_secs }
     }
 
     /// Position of the hand \[m\]; EQ3 at the end.
@@ -67,7 +67,7 @@ impl HandPath {
 
     /// Share of the path that is done.
     pub fn share_at(&self, secs: f64) -> f64 {
-        let length_squared = self.way.length_squared();
-        if length_squared > 0.0 { (self.at(secs) - self.from).dot(self.way) / length_squared } else { 1.0 }
+        let length_squared = self.displacement.length_squared();
+        if length_squared > 0.0 { (self.at(secs) - self.from).dot(self.displacement) / length_squared } else { 1.0 }
     }
 }

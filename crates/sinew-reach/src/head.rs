@@ -20,12 +20,12 @@ const NECK_SHARE: f64 = 0.45;
 ///
 /// ```
 /// use glam::DVec3;
-/// use sinew_reach::look;
-/// assert_eq!(look(DVec3::Z), DVec3::ZERO);
-/// let aside = look(DVec3::X).length().to_degrees();
+/// use sinew_reach::gaze_rotation;
+/// assert_eq!(gaze_rotation(DVec3::Z), DVec3::ZERO);
+/// let aside = gaze_rotation(DVec3::X).length().to_degrees();
 /// assert!(aside > 38.0 && aside < 45.0, "the eyes do the rest");
 /// ```
-pub fn look(chest_from_target: DVec3) -> DVec3 {
+pub fn gaze_rotation(chest_from_target: DVec3) -> DVec3 {
     let d = chest_from_target;
     let level = (d.x * d.x + d.z * d.z).sqrt();
     let length = d.length();

@@ -77,7 +77,7 @@ mod weight;
 pub use feet::{Feet, Placement, Stride};
 pub use flight::{Flight, Meeting};
 pub use hand_path::{HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S};
-pub use head::look;
+pub use head::gaze_rotation;
 pub use legs::{
     StepChoice, StepKind, decide_step, ground_direction, half_probability, step_bias, step_length, step_probability,
 };

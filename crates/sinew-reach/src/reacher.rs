@@ -58,7 +58,7 @@ pub struct Reacher {
     pub(crate) reserve: MinimumJerk<f64>,
     pub(crate) heels: MinimumJerk<f64>,
     /// How far the head has taken up the gaze \[1\].
-    pub(crate) look: MinimumJerk<f64>,
+    pub(crate) gaze_weight: MinimumJerk<f64>,
     /// Turn of the head relative to the chest with which it faces the target.
     pub(crate) gaze: MinimumJerk<DVec3>,
     pub(crate) arms: [Arm; 2],
@@ -106,7 +106,7 @@ impl Reacher {
             onto_toes: MinimumJerk::rest(0.0),
             reserve: MinimumJerk::rest(1.0),
             heels: MinimumJerk::rest(0.0),
-            look: MinimumJerk::rest(0.0),
+            gaze_weight: MinimumJerk::rest(0.0),
             gaze: rest,
             arms,
             hips: [rest; 2],
@@ -152,7 +152,7 @@ impl Reacher {
             hips_turn: self.hips[1].at(secs),
             trunk: self.trunk.map(|turn| turn.at(secs)),
             look_at: None,
-            head: self.gaze.at(secs) * self.look.at(secs),
+            head: self.gaze.at(secs) * self.gaze_weight.at(secs),
             arms: [0, 1].map(|side| self.arm_at(side, secs)),
             lean: self.lean.at(secs),
         }
@@ -292,7 +292,7 @@ impl Reacher {
         self.lean.go(now, DVec3::ZERO, 0.0, lasts);
         self.tiptoe.go(now, 0.0, 0.0, 0.8 * lasts);
         self.onto_toes.go(now, 0.0, 0.2 * lasts, 0.8 * lasts);
-        self.look.go(now, 0.0, 0.0, lasts);
+        self.gaze_weight.go(now, 0.0, 0.0, lasts);
         for arm in &mut self.arms {
             arm.let_go(now, lasts);
         }

@@ -21,7 +21,7 @@ impl Snapshot for Reacher {
             onto_toes,
             reserve,
             heels,
-            look,
+            gaze_weight,
             gaze,
             arms,
             hips,
@@ -43,7 +43,7 @@ impl Snapshot for Reacher {
         feet.save(to);
         [*twist, *squat, *tiptoe, *onto_toes, *reserve, *heels].save(to);
         [*swing, *lean, *gaze].save(to);
-        look.save(to);
+        gaze_weight.save(to);
         arms.save(to);
         hips.save(to);
         trunk.save(to);
@@ -79,7 +79,7 @@ impl Snapshot for Reacher {
         for value in [&mut self.swing, &mut self.lean, &mut self.gaze] {
             value.restore(from)?;
         }
-        self.look.restore(from)?;
+        self.gaze_weight.restore(from)?;
         self.arms.restore(from)?;
         self.hips.restore(from)?;
         self.trunk.restore(from)?;

@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 use sinew_body::humanoid::{Node, log};
 
 /// Number of samples on the path.
-const LOOKS: usize = 48;
+const PATH_SAMPLES: usize = 48;
 
 /// Minimum clearance of an arm \[m\], and the radius around its target in which obstacles are ignored: they are the
 /// object that is reached for.
@@ -69,14 +69,14 @@ impl Reacher {
     }
 
     fn mend_arm(&mut self, side: usize, now: f64) {
-        let mut looks = self.looks(side, now);
+        let mut samples = self.path_samples(side, now);
         let path = Path { bow: self.arms[side].bow.goal(), swivel: self.arms[side].swivel.goal(), by_joints: false };
-        let mut best = (self.fault_of(side, &path, &mut looks), path);
+        let mut best = (self.fault_of(side, &path, &mut samples), path);
         if best.0.is_none() {
             return;
         }
         for other in self.other_ways(side, &path, best.0.deep_m > 0.0, now) {
-            let fault = self.fault_of(side, &other, &mut looks);
+            let fault = self.fault_of(side, &other, &mut samples);
             if fault.price() < best.0.price() - 1e-9 {
                 best = (fault, other);
                 if fault.is_none() {
@@ -121,41 +121,41 @@ impl Reacher {
     fn stop_before(&mut self, side: usize, secs: f64, now: f64) {
         let end = self.outcome.arrives_secs;
         let begins = self.arms[side].share.begins_secs().clamp(now, end);
-        let share = self.arms[side].share.at((secs - (end - begins) / LOOKS as f64).max(now));
+        let share = self.arms[side].share.at((secs - (end - begins) / PATH_SAMPLES as f64).max(now));
         let from = (self.arms[side].share.end_secs() - now).max(0.2);
         self.arms[side].share.go(now, share.clamp(0.0, 1.0), 0.0, from);
         self.outcome.reason = Some(Reason::Blocked);
     }
 
     /// The body at samples of the path.
-    fn looks(&self, side: usize, now: f64) -> Vec<Look> {
+    fn path_samples(&self, side: usize, now: f64) -> Vec<PathSample> {
         let end = self.outcome.arrives_secs;
         // Before that time the arm is only carried.
         let now = self.arms[side].share.begins_secs().clamp(now, end);
-        let look = |index: usize| {
-            let secs = now + (end - now) * index as f64 / LOOKS as f64;
+        let sample = |index: usize| {
+            let secs = now + (end - now) * index as f64 / PATH_SAMPLES as f64;
             let controls = self.now(secs);
-            Look { secs, led: led_by_joints(now, end).at(secs), moment: self.frame.moment(side, &controls) }
+            PathSample { secs, led: led_by_joints(now, end).at(secs), moment: self.frame.moment(side, &controls) }
         };
-        (0..=LOOKS).map(look).collect()
+        (0..=PATH_SAMPLES).map(sample).collect()
     }
 
-    fn fault_of(&self, side: usize, path: &Path, looks: &mut [Look]) -> Fault {
+    fn fault_of(&self, side: usize, path: &Path, samples: &mut [PathSample]) -> Fault {
         let mut fault = Fault::default();
         let mut at_start = Fault::default();
         let mut before: Option<(f64, DQuat)> = None;
-        for (index, look) in looks.iter_mut().enumerate() {
-            let arm = &mut look.moment.arm;
+        for (index, sample) in samples.iter_mut().enumerate() {
+            let arm = &mut sample.moment.arm;
             (arm.bow, arm.swivel) = (path.bow, path.swivel);
-            arm.by_joints = if path.by_joints { look.led } else { 0.0 };
-            self.frame.place_again(side, &mut look.moment);
-            let there = self.fault_at(side, &look.moment.composed);
-            let upper = look.moment.composed.pose.local(ARMS[side][1]);
+            arm.by_joints = if path.by_joints { sample.led } else { 0.0 };
+            self.frame.place_again(side, &mut sample.moment);
+            let there = self.fault_at(side, &sample.moment.composed);
+            let upper = sample.moment.composed.pose.local(ARMS[side][1]);
             if let Some((secs, turn)) = before {
-                let speed = log(turn.conjugate() * upper).length() / (look.secs - secs).max(1e-6);
+                let speed = log(turn.conjugate() * upper).length() / (sample.secs - secs).max(1e-6);
                 fault.fastest_rad_s = fault.fastest_rad_s.max(speed);
             }
-            before = Some((look.secs, upper));
+            before = Some((sample.secs, upper));
             if index == 0 {
                 at_start = there;
                 continue;
@@ -163,7 +163,7 @@ impl Reacher {
             // A motion that begins beyond a limit or in contact may continue from there.
             let deep = there.deep_m.min((there.deep_m - at_start.deep_m).max(0.0));
             if deep > 0.0 && fault.touches_secs.is_none() {
-                fault.touches_secs = Some(look.secs);
+                fault.touches_secs = Some(sample.secs);
             }
             fault.deep_m = fault.deep_m.max(deep);
             fault.excess_rad = fault.excess_rad.max(there.excess_rad - at_start.excess_rad);
@@ -223,7 +223,7 @@ struct Path {
 }
 
 /// The body at a sample of the path.
-struct Look {
+struct PathSample {
     secs: f64,
     /// Weight of joint interpolation, if it is used.
     led: f64,

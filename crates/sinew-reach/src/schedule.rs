@@ -2,7 +2,7 @@
 
 use crate::compose::Composed;
 use crate::hand_path::{HandPath, PRINTED_RATIO, PRINTED_SPEED_M_S};
-use crate::head::look;
+use crate::head::gaze_rotation;
 use crate::minimum_jerk::MinimumJerk;
 use crate::plan::Decision;
 use crate::reacher::Reacher;
@@ -128,16 +128,16 @@ impl Reacher {
     /// The head turns to where the target is seen now, `after_secs` from now, then keeps facing it while trunk and feet turn.
     fn turn_head(&mut self, decision: &Decision, composed: &Composed, now: f64, after_secs: f64, timing: &Timing) {
         let speed = self.style.head_speed_rad_s;
-        if self.look.at(now) == 0.0
+        if self.gaze_weight.at(now) == 0.0
             && let Some(target) = crate::reacher::middle_of(decision.targets)
         {
             let pose = &composed.pose;
             let neck = pose.positions(&self.frame.body)[Node::Neck.index()];
-            self.gaze = MinimumJerk::rest(look(pose.world[Node::Chest.index()].conjugate() * (target - neck)));
+            self.gaze = MinimumJerk::rest(gaze_rotation(pose.world[Node::Chest.index()].conjugate() * (target - neck)));
         }
         let seen = self.gaze.at(now);
         let lasts = (seen.length().max(decision.gaze.length()) / speed).max(0.25);
-        self.look.go(now, 1.0, after_secs, lasts);
+        self.gaze_weight.go(now, 1.0, after_secs, lasts);
         let turns = (decision.gaze - seen).length() / (HEAD_FOLLOWS * speed);
         let begins = (timing.arm - now).max(after_secs + 0.6 * lasts);
         self.gaze.go(now, decision.gaze, begins, (timing.end - now - begins).max(turns).max(0.25));

@@ -1,4 +1,4 @@
-//! One character on the stage: sources, layers and a tracker.
+//! The control of one character on a stage: its sources, layers and tracker.
 
 use sinew_body::humanoid::{Body, Node, Pose};
 use sinew_control::perform::LiveSource;
@@ -10,32 +10,32 @@ use sinew_world::{CharacterId, PropId, World};
 use std::any::Any;
 use std::sync::Arc;
 
-/// A character's control: what it follows, three layers (key poses and graphs, a script, reflexes), and how its body follows. A clone
-/// goes on to the same bits.
+/// Controls one character: its sources give the wanted pose, three layers (key poses and graphs, a script, reflexes) change it, and
+/// a tracker makes the body follow. A clone continues bit for bit.
 #[derive(Clone)]
 pub struct Actor {
     pub(crate) id: CharacterId,
     pub(crate) sources: Sources,
     pub(crate) tracker: Box<dyn Tracker>,
-    /// The tracker is the one of the start.
+    /// Whether the tracker is still the one that the scene gave.
     pub(crate) has_first_tracker: bool,
     pub(crate) wanted: Wanted,
     pub(crate) reflexes: Vec<(Box<dyn Reflex>, bool)>,
     pub(crate) layers: [bool; 3],
-    /// The joints' own springs, before any factor.
+    /// Joint spring gains before any factor.
     pub(crate) springs: Gains,
     /// k_sg, the global gain (Shapiro et al. 2007, EQ3), and a factor for each joint on top \[1\].
     pub(crate) global_gain: f64,
     pub(crate) joint_gain: [f64; Node::COUNT],
-    /// How often it was told to reach.
+    /// Number of reaches ordered so far.
     pub(crate) reaches: u64,
-    /// Hands, left 0 and right 1, and the props that they pass through.
+    /// Hands (left 0, right 1) with the props that they do not collide with.
     pub(crate) through: Vec<(usize, PropId)>,
     pub(crate) step_secs: f64,
 }
 
 impl Actor {
-    /// Held by joint springs to the pose `pose` of the book, from the pose that the body has at the start.
+    /// A character that holds the key pose `pose` of the book by joint springs, starting from the pose `start`.
     pub(crate) fn new(
         id: CharacterId,
         body: &Body,
@@ -62,22 +62,22 @@ impl Actor {
         }
     }
 
-    /// The name of the key pose that it aims at, where it follows key poses.
+    /// Name of the key pose that it moves to; `None` when it follows no key poses.
     pub fn pose(&self) -> Option<&str> {
         self.sources.key_poses().map(KeyPoses::pose)
     }
 
-    /// The graph that it plays, and the state that it is in.
+    /// The running pose graph and its present state.
     pub fn graph_state(&self) -> Option<(&str, &str)> {
         self.sources.key_poses()?.graph_state()
     }
 
-    /// How its body follows.
+    /// The tracker.
     pub fn tracker(&self) -> &dyn Tracker {
         self.tracker.as_ref()
     }
 
-    /// Its tracker, where it is of this type.
+    /// The tracker, if it is of this type.
     pub(crate) fn tracker_as<T: Tracker>(&mut self) -> Option<&mut T> {
         (self.tracker.as_mut() as &mut dyn Any).downcast_mut()
     }
@@ -87,17 +87,17 @@ impl Actor {
         self.layers[layer as usize]
     }
 
-    /// What it wants, as far as its tracker asked.
+    /// The wanted pose of the last step; only the fields that the tracker asks for are set.
     pub fn wanted(&self) -> &Wanted {
         &self.wanted
     }
 
-    /// What it follows.
+    /// The sources of its wanted pose.
     pub fn sources(&self) -> &Sources {
         &self.sources
     }
 
-    /// The performer's stream, where the character has one.
+    /// The live performer's stream, if it has one.
     pub fn performance(&self) -> Option<&LiveSource> {
         self.sources.performer().map(Performer::source)
     }
@@ -107,12 +107,12 @@ impl Actor {
         self.sources.body()
     }
 
-    /// The joints' own springs.
+    /// Joint spring gains before any factor.
     pub(crate) fn springs(&self) -> &Gains {
         &self.springs
     }
 
-    /// Other springs from now on, for its present tracker too.
+    /// Replaces the joint spring gains, in the present tracker too.
     pub(crate) fn set_springs(&mut self, springs: Gains) {
         if self.tracker.kind() == TrackerKind::Pd {
             self.tracker = Box::new(PdTracker::with(springs.clone()));
@@ -120,18 +120,18 @@ impl Actor {
         self.springs = springs;
     }
 
-    /// Whether its controller is called: one that belongs to an understudy is silent while the performer acts.
+    /// Whether its Python controller runs: that of an understudy is paused while the performer acts.
     pub(crate) fn hears_scripts(&self) -> bool {
         let is_off = self.sources.performer().is_some_and(Performer::has_understudy_off);
         self.has_layer(Layer::Scripts) && !is_off
     }
 
-    /// Factor on the stiffness of a part's joint, or of all.
+    /// Factor on the stiffness of a part's joint, or, for `None`, of all joints \[1\].
     pub fn gain(&self, node: Option<Node>) -> f64 {
         node.map_or(self.global_gain, |node| self.joint_gain[node.index()])
     }
 
-    /// Whether a reflex is selected.
+    /// Whether a reflex is enabled.
     pub fn has_reflex(&self, name: &str) -> bool {
         self.reflexes.iter().any(|(reflex, on)| *on && reflex.name() == name)
     }
@@ -173,14 +173,14 @@ impl Actor {
         Ok(())
     }
 
-    /// Reflexes forget what they remember: the body was put back.
+    /// Clears the memory of the reflexes, after the body was moved.
     pub(crate) fn reset(&mut self) {
         for (reflex, _) in &mut self.reflexes {
             reflex.reset();
         }
     }
 
-    /// Follows by another tracker from the next step on, from where the body is now.
+    /// Changes the tracker from the next step on, starting from the body's present pose.
     pub(crate) fn set_tracker(&mut self, tracker: Box<dyn Tracker>, floor_m: f64, world: &mut World) {
         let Some(character) = world.frame().character(self.id) else { return };
         self.sources.begin_root(character, tracker.locks_feet().then_some(floor_m));
@@ -195,20 +195,20 @@ impl Actor {
         self.tracker.start(&start, world, self.id);
     }
 
-    /// All its sources go on by a step.
+    /// Advances all sources by one step.
     pub(crate) fn advance(&mut self, world: &World, events: &mut Vec<SourceEvent>) {
         let has_poses_layer = self.has_layer(Layer::Poses);
         self.sources.advance(world.frame(), self.id, has_poses_layer, events);
     }
 
-    /// Finds out what is wanted, as far as the tracker asks, and has it followed; `frame_secs` is the length of a motion frame \[s\].
+    /// Computes what the tracker asks for of the wanted pose and lets it follow; `frame_secs` is the length of a motion frame \[s\].
     pub(crate) fn follow(&mut self, world: &mut World, frame_secs: f64) {
         let wants = self.tracker.wants();
         let frame = world.frame();
         let has_reflexes = self.tracker.honours().torques
             && self.has_layer(Layer::Reflexes)
             && self.reflexes.iter().any(|(_, on)| *on);
-        // Reflexes change joints that were written in this step.
+        // Reflexes add to joint targets, which must be those of this step.
         if wants >= Wants::Joints || has_reflexes && wants == Wants::Firmness {
             let ahead_secs = if wants == Wants::Pose { frame_secs } else { self.step_secs };
             self.sources.wanted(frame.time_secs + ahead_secs, &mut self.wanted);

@@ -1,24 +1,22 @@
-//! The time line of a stage that runs: any earlier time again, and what would have happened otherwise.
+//! Seeking a running stage: going back to an earlier step, and branching into what-if takes.
 
 use crate::snapshots::Snapshots;
 use crate::take::Stamped;
 use crate::{Stage, StageError};
 
-/// Knows what was done to a stage, goes back to any earlier step, and runs on from there as another take.
+/// Records the commands and snapshots of a stage, seeks to any recorded step, and branches into further takes.
 ///
-/// Call [`Timeline::watch`] after every step. [`Timeline::seek`] brings the stage to any step that is known, with the commands
-/// that were given then; it is bit for bit what it was. Running on past it gives the same commands again, to the end of what is
-/// known, and after that it is the present again.
+/// Call [`Timeline::watch`] after every step. [`Timeline::seek`] brings the stage to any recorded step, bit for bit as it was.
+/// Stepping on from there replays the recorded commands up to the last recorded step; after that the stage is live again.
 ///
-/// [`Timeline::what_if`] seeks too, but what was to come is left out: the stage is free to be given other commands, in a take of its
-/// own. A command that is given after seeking, before the end of what is known, begins a take of its own as well, in which the
-/// known commands that follow are given again. The takes before stay as they are, and [`Timeline::go_to`] goes back to them.
+/// [`Timeline::what_if`] seeks and starts a new take without the later commands, so that others can be sent. A command sent after
+/// [`Timeline::seek`], before the last recorded step, starts a new take too, but there the later recorded commands are replayed.
+/// Existing takes never change, and [`Timeline::go_to`] returns to any of them.
 ///
-/// It keeps snapshots of the stage, at most [`Timeline::MAX_SNAPSHOTS`], and seeks by restoring the nearest one before the step
-/// and running on from there. They lie at multiples of an interval, at first a quarter of a second at 240 Hz; when there are too many
-/// the interval doubles and those between are dropped. So seeking runs at most as many steps as the interval, which is a share of
-/// the whole that does not grow: a sixteenth, when no other takes are there. A stage with controllers in Python is run
-/// again from its start instead: what of their state a snapshot cannot keep would change the run.
+/// Seeking restores the nearest earlier snapshot and simulates from it. At most [`Timeline::MAX_SNAPSHOTS`] are kept, at multiples
+/// of an interval that begins at 60 steps (a quarter of a second at 240 Hz) and doubles whenever they become too many. A seek
+/// therefore simulates at most one interval: a sixteenth of a take that has no branches, however long it is. A stage with
+/// Python controllers is simulated from its start instead, because a snapshot cannot keep all of a script's state.
 ///
 /// ```
 /// use sinew_control::{Action, Command};
@@ -66,80 +64,80 @@ pub struct KnownTake {
 }
 
 impl KnownTake {
-    /// The take that it branched off, and after how many steps; `None` for the first.
+    /// The parent take and the step at which this one branched off; `None` for the first take.
     pub fn from(&self) -> Option<(usize, u64)> {
         self.from
     }
 
-    /// Steps that are known of it, from the beginning of the scene.
+    /// Number of recorded steps, from the start of the scene.
     pub fn steps(&self) -> u64 {
         self.steps
     }
 
-    /// All commands from outside with their steps, from the beginning of the scene.
+    /// The recorded commands with their steps, from the start of the scene.
     pub fn commands(&self) -> &[Stamped] {
         &self.commands
     }
 }
 
-/// Why a time cannot be gone to.
+/// Why a step cannot be sought.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SeekError {
     /// No take has this number.
     #[error("there is no take {take}; there are {count}, numbered from 0")]
     NoTake {
-        /// What was asked for.
+        /// The take asked for.
         take: usize,
-        /// How many there are.
+        /// Number of takes.
         count: usize,
     },
-    /// The take does not go so far.
-    #[error("step {step} is beyond the {known} steps that are known of take {take}; run on to it")]
+    /// The step lies beyond the end of the take.
+    #[error("step {step} is beyond the {known} recorded steps of take {take}; step the stage on to it")]
     Beyond {
         /// The take.
         take: usize,
-        /// What was asked for.
+        /// The step asked for.
         step: u64,
-        /// How far the take goes.
+        /// Number of recorded steps.
         known: u64,
     },
-    /// There are as many takes as a time line holds.
-    #[error("there are {MAX_TAKES} takes already; begin a new time line")]
+    /// The time line holds its maximum number of takes.
+    #[error("there are {MAX_TAKES} takes already; start a new time line")]
     TooManyTakes,
-    /// The stage had run before the time line began.
-    #[error("the stage has done {step} steps already; begin the time line before its first step")]
+    /// The stage was stepped before the time line was made.
+    #[error("the stage has done {step} steps already; make the time line before its first step")]
     BegunLate {
-        /// How many.
+        /// Number of steps done.
         step: u64,
     },
     /// The stage was stepped without [`Timeline::watch`].
-    #[error("the stage is at step {step}, and the time line has seen {seen}; call watch() after every step")]
+    #[error("the stage is at step {step}, but the time line has recorded {seen}; call watch() after every step")]
     NotWatched {
-        /// Where the stage is.
+        /// The stage's step.
         step: u64,
-        /// The last step that was watched.
+        /// The last recorded step.
         seen: u64,
     },
-    /// A runner keeps no time line.
+    /// The runner was made without a time line.
     #[error("the runner keeps no time line; make it with Runner::with_timeline()")]
     NoTimeline,
-    /// The scene cannot be started again, such as when a file of its is gone.
-    #[error("the scene cannot be started again: {0}")]
+    /// The scene cannot be restarted, for example because one of its files is missing.
+    #[error("the scene cannot be restarted: {0}")]
     Stage(#[from] StageError),
 }
 
-/// Takes of one time line.
+/// Maximum number of takes in a time line.
 const MAX_TAKES: usize = 1000;
 
 impl Timeline {
-    /// Maximum number of snapshots that it keeps.
+    /// Maximum number of snapshots kept.
     pub const MAX_SNAPSHOTS: usize = Snapshots::MAX;
 
-    /// Begins before the first step of a stage, which keeps its record from now on.
+    /// Starts recording a stage, before its first step.
     ///
     /// # Errors
-    /// When the stage has done a step.
+    /// [`SeekError::BegunLate`] when the stage was stepped already.
     pub fn new(stage: &mut Stage) -> Result<Timeline, SeekError> {
         let step = stage.frame().step;
         if step > 0 {
@@ -152,10 +150,10 @@ impl Timeline {
         Ok(timeline)
     }
 
-    /// Takes a step down that the stage has just done.
+    /// Records the step that the stage has just done.
     ///
     /// # Errors
-    /// When steps are missing, or there are a thousand takes already.
+    /// [`SeekError::NotWatched`] when steps are missing; [`SeekError::TooManyTakes`] when a new take is needed and there are 1000.
     pub fn watch(&mut self, stage: &Stage) -> Result<(), SeekError> {
         let (step, record) = (stage.frame().step, stage.record());
         let take = &mut self.takes[self.present];
@@ -167,45 +165,45 @@ impl Timeline {
             take.steps = step;
             take.commands.extend_from_slice(record.get(known..).unwrap_or_default());
         } else if record.len() != known {
-            // In the middle of what is known a command was given: from here on this is another take.
+            // A new command among the recorded ones changes what follows: from here on this is another take.
             self.branch(step.saturating_sub(1), step, record.to_vec())?;
         }
         self.snapshots.offer(self.present, stage);
         Ok(())
     }
 
-    /// Physics steps that seeking has run so far, from the snapshots to the steps that were sought.
+    /// Total number of physics steps simulated by seeking so far.
     pub fn steps_run(&self) -> u64 {
         self.steps_run
     }
 
-    /// Number of snapshots that it keeps at present.
+    /// Number of snapshots kept at present.
     pub fn snapshots(&self) -> usize {
         self.snapshots.len()
     }
 
-    /// The takes, the first one being number 0.
+    /// All takes; the index is a take's number.
     pub fn takes(&self) -> &[KnownTake] {
         &self.takes
     }
 
-    /// The number of the take that the stage is in.
+    /// Number of the take that the stage is in.
     pub fn present(&self) -> usize {
         self.present
     }
 
-    /// Goes to a step of the present take, earlier or later.
+    /// Seeks to a step of the present take, earlier or later.
     ///
     /// # Errors
-    /// When the take does not go so far.
+    /// [`SeekError::Beyond`] when the take is shorter; [`SeekError::Stage`] when the scene cannot be restarted.
     pub fn seek(&mut self, stage: &mut Stage, step: u64) -> Result<(), SeekError> {
         self.go_to(stage, self.present, step)
     }
 
-    /// Goes to a step of any take. When that cannot be done the stage stays where it is.
+    /// Seeks to a step of any take. On an error the stage stays where it is.
     ///
     /// # Errors
-    /// When there is no such take, or it does not go so far.
+    /// [`SeekError::NoTake`], [`SeekError::Beyond`], or [`SeekError::Stage`] when the scene cannot be restarted.
     pub fn go_to(&mut self, stage: &mut Stage, take: usize, step: u64) -> Result<(), SeekError> {
         let known = self.known(take, step)?;
         let commands = known.commands.clone();
@@ -213,7 +211,7 @@ impl Timeline {
             return self.go_to_watched(stage, take, step, &mut |_| {});
         };
         if stage.restore(&snapshot).is_err() {
-            // It is of this scene and holds no controller.
+            // Not expected: the snapshot is of this scene and holds no controller. Simulating from the start is always right.
             return self.go_to_watched(stage, take, step, &mut |_| {});
         }
         stage.record = commands[..commands.partition_point(|stamped| stamped.step < snapshot.step())].to_vec();
@@ -240,7 +238,7 @@ impl Timeline {
         }
     }
 
-    /// As [`Timeline::go_to`], from the start of the scene; `seen` is shown the stage there and after every step.
+    /// As [`Timeline::go_to`], but simulates from the start of the scene; calls `seen` at the start and after every step.
     pub(crate) fn go_to_watched(
         &mut self,
         stage: &mut Stage,
@@ -258,16 +256,17 @@ impl Timeline {
         Ok(())
     }
 
-    /// Goes to a step of the present take and begins another take there, in which nothing is prescribed. Returns its number.
+    /// Seeks to a step of the present take and starts a new take there, without the recorded commands that follow. Returns its
+    /// number.
     ///
     /// # Errors
-    /// When the take does not go so far, or there are a thousand takes already.
+    /// As [`Timeline::seek`]; [`SeekError::TooManyTakes`] when there are 1000.
     pub fn what_if(&mut self, stage: &mut Stage, step: u64) -> Result<usize, SeekError> {
         self.seek(stage, step)?;
         self.branch_here(stage)
     }
 
-    /// Begins another take where the stage is now.
+    /// Starts a new take at the stage's present step.
     pub(crate) fn branch_here(&mut self, stage: &mut Stage) -> Result<usize, SeekError> {
         let step = stage.frame().step;
         self.branch(step, step, stage.record().to_vec())?;
@@ -275,7 +274,7 @@ impl Timeline {
         Ok(self.present)
     }
 
-    /// Begins another take, which leaves the present one after so many steps.
+    /// Starts a new take that branches off the present one at `from_step`.
     fn branch(&mut self, from_step: u64, steps: u64, commands: Vec<Stamped>) -> Result<(), SeekError> {
         if self.takes.len() >= MAX_TAKES {
             return Err(SeekError::TooManyTakes);

@@ -43,7 +43,7 @@ pub(crate) struct Character {
     pub gravity_scales: [f64; Node::COUNT],
     pub planes: Vec<ImpulseJointHandle>,
     /// Load on each joint's parent at the start of a step.
-    pub borne: [WarmStart; Node::COUNT],
+    pub warm_starts: [WarmStart; Node::COUNT],
     pub extra_shapes: Vec<ExtraShape>,
     /// Shapes of parts in place of their own.
     pub solids: [Option<Solid>; Node::COUNT],
@@ -76,7 +76,7 @@ impl Character {
             outboard,
             gravity_scales: [1.0; Node::COUNT],
             planes: Vec::new(),
-            borne: [WarmStart::default(); Node::COUNT],
+            warm_starts: [WarmStart::default(); Node::COUNT],
             extra_shapes: Vec::new(),
             solids: Default::default(),
             pushes: [[DVec3::ZERO; Node::COUNT]; 2],
@@ -157,16 +157,17 @@ impl Character {
         let limit_spring = LimitSpring::of(mass_kg, gravity_m_s2, stature_m);
         let handle = self.joints[node.index()];
         let place = engine.bodies.get(self.bodies[node.index()]).map_or(DVec3::ZERO, RigidBody::translation);
-        let borne = &mut self.borne[node.index()];
+        let warm_start = &mut self.warm_starts[node.index()];
         let Some(joint) = engine.joints.get(handle) else { return };
-        *borne = borne.after(joint, &engine.bodies, sub_step_secs).handed_on(mass_kg * gravity_m_s2, stature_m);
+        *warm_start =
+            warm_start.after(joint, &engine.bodies, sub_step_secs).handed_on(mass_kg * gravity_m_s2, stature_m);
         let Some(joint) = engine.joints.get_mut(handle, false) else { return };
         let write = if is_hinge(node) { write_hinge } else { write_ball };
-        let start = Start { step_secs, sub_step_secs, torque: parent_rotation.conjugate() * borne.torque };
+        let start = Start { step_secs, sub_step_secs, torque: parent_rotation.conjugate() * warm_start.torque };
         let torque = write(&mut joint.data, &limit, &limit_spring, &drive, local, start);
-        borne.torque = parent_rotation * torque;
-        loads[parent.index()].add(borne.force, place, borne.torque - drive.torque);
-        loads[node.index()].add(-borne.force, place, drive.torque - borne.torque);
+        warm_start.torque = parent_rotation * torque;
+        loads[parent.index()].add(warm_start.force, place, warm_start.torque - drive.torque);
+        loads[node.index()].add(-warm_start.force, place, drive.torque - warm_start.torque);
     }
 
     fn prepare_body(&mut self, engine: &mut Engine, node: Node, step_secs: f64, load: &Load) {

@@ -24,7 +24,7 @@ impl Snapshot for Character {
             outboard: _,
             gravity_scales,
             planes,
-            borne,
+            warm_starts,
             extra_shapes: _,
             solids: _,
             pushes,
@@ -39,7 +39,7 @@ impl Snapshot for Character {
         gravity_scales.save(to);
         to.length(planes.len());
         planes.iter().for_each(|handle| handle.save_to(to));
-        borne.save(to);
+        warm_starts.save(to);
         pushes.save(to);
         reaction_body.save(to);
         stays_awake.save(to);
@@ -51,7 +51,7 @@ impl Snapshot for Character {
         self.holds.restore(from)?;
         self.gravity_scales.restore(from)?;
         self.planes = handles::<ImpulseJointHandle>(from)?;
-        self.borne.restore(from)?;
+        self.warm_starts.restore(from)?;
         self.pushes.restore(from)?;
         self.reaction_body.restore(from)?;
         self.stays_awake.restore(from)

@@ -122,10 +122,10 @@ impl World {
                 _ => continue,
             };
             let Some(joint) = self.engine.joints.get(character.joints[child.index()]) else { continue };
-            let borne = character.borne[child.index()].after(joint, &self.engine.bodies, sub_step_secs);
+            let warm_start = character.warm_starts[child.index()].after(joint, &self.engine.bodies, sub_step_secs);
             let place = self.frame.characters[id.slot()].part(child).position;
-            force -= borne.force * sign;
-            torque -= ((place - centre).cross(borne.force) + borne.torque) * sign;
+            force -= warm_start.force * sign;
+            torque -= ((place - centre).cross(warm_start.force) + warm_start.torque) * sign;
         }
         for contact in &self.frame.contacts {
             let own = Entity::Part(id, node);

@@ -71,7 +71,7 @@ impl World {
     /// The last valid pose of every part, at rest.
     fn put_back(&mut self, id: CharacterId) {
         let Some(character) = self.characters.get_mut(id) else { return };
-        character.borne = Default::default();
+        character.warm_starts = Default::default();
         let known = self.frame.step > 0 && self.frame.characters[id.slot()].parts[0] != BodyState::REST;
         let start = character.spec.pose.positions(character.body());
         for node in Node::ALL {

@@ -1,7 +1,7 @@
 //! Frames as bytes: all bits arrive, and any bytes may come.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use super::common::{Dice, adult, spec, standing};
+use super::common::{Rng, adult, spec, standing};
 use glam::{DQuat, DVec3};
 use sinew_body::humanoid::Node;
 use sinew_snapshot::{FrameKind, Writer};
@@ -187,12 +187,12 @@ fn bytes_with_a_forged_checksum_are_an_error_or_another_frame() {
         }
         changed[at] = whole[at];
     }
-    let mut dice = Dice::new(11);
+    let mut rng = Rng::new(11);
     for _ in 0..3000 {
         let mut bytes = whole.clone();
-        for _ in 0..1 + (dice.unit() * 5.0) as usize {
-            let at = (dice.unit() * bytes.len() as f64) as usize;
-            bytes[at] = (dice.unit() * 256.0) as u8;
+        for _ in 0..1 + (rng.unit() * 5.0) as usize {
+            let at = (rng.unit() * bytes.len() as f64) as usize;
+            bytes[at] = (rng.unit() * 256.0) as u8;
         }
         is_error_or_the_same_bytes(&forged(&bytes));
     }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use super::common;
-use common::{Dice, adult, hold, lifted, odd_pose, spec, standing};
+use common::{Rng, adult, hold, lifted, odd_pose, spec, standing};
 use glam::DVec3;
 use sinew_body::humanoid::Node;
 use sinew_snapshot::FrameKind;
@@ -188,26 +188,26 @@ fn what_rested_on_a_removed_prop_falls() {
 fn things_come_and_go_in_any_order_and_the_rest_goes_on() {
     let body = adult();
     for seed in 0..6 {
-        let mut dice = Dice::new(seed + 1);
+        let mut rng = Rng::new(seed + 1);
         let mut world = World::new(WorldSettings::default());
         let stays = world.add_character(spec(&body, standing(&body))).unwrap();
         hold(&mut world, stays, 3.0);
         let (mut characters, mut props) = (Vec::new(), Vec::new());
         for _ in 0..60 {
-            let place = dice.vector() * 0.5 + DVec3::new(0.0, 1.2, 0.0);
-            match (dice.unit() * 6.0) as usize {
+            let place = rng.vector() * 0.5 + DVec3::new(0.0, 1.2, 0.0);
+            match (rng.unit() * 6.0) as usize {
                 0 if characters.len() < 4 => {
-                    let mut pose = lifted(&body, odd_pose(&body, (dice.unit() * 1e6) as u64, 0.7), 0.3);
+                    let mut pose = lifted(&body, odd_pose(&body, (rng.unit() * 1e6) as u64, 0.7), 0.3);
                     pose.hips_position += DVec3::new(place.x, 0.0, place.z);
                     characters.push(world.add_character(spec(&body, pose)).unwrap());
                 }
                 1 => props.push(world.add_prop(ball(place)).unwrap()),
                 2 if !characters.is_empty() => {
-                    let at = (dice.unit() * characters.len() as f64) as usize;
+                    let at = (rng.unit() * characters.len() as f64) as usize;
                     world.remove_character(characters.swap_remove(at)).unwrap();
                 }
                 3 if !props.is_empty() => {
-                    let at = (dice.unit() * props.len() as f64) as usize;
+                    let at = (rng.unit() * props.len() as f64) as usize;
                     world.remove_prop(props.swap_remove(at)).unwrap();
                 }
                 4 if !props.is_empty() => {

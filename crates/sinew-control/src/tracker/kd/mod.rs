@@ -91,7 +91,7 @@ pub struct KdTracker {
     raw_velocity: DVec3,
     before: Instant,
     now: Instant,
-    way: Option<Transition>,
+    transition: Option<Transition>,
     start: Start,
     carrier: Option<Carrier>,
     self_collision: SelfCollision,
@@ -116,7 +116,7 @@ sinew_snapshot::snapshot!(KdTracker {
     raw_velocity,
     before,
     now,
-    way,
+    transition,
     start,
     carrier,
     self_collision,
@@ -168,7 +168,7 @@ impl KdTracker {
             raw_velocity: DVec3::ZERO,
             before: now,
             now,
-            way: None,
+            transition: None,
             start: Start::No,
             carrier: None,
             self_collision: SelfCollision::new(body),
@@ -188,7 +188,7 @@ impl KdTracker {
         let share = 1.0 - step_secs / self.clock.time_step_secs();
         self.before = Instant::of(body, &self.interpolator.at(share));
         self.raw_velocity = (now.hips_position - before.hips_position) / self.clock.time_step_secs();
-        (self.way, self.start) = (None, Start::No);
+        (self.transition, self.start) = (None, Start::No);
     }
 
     /// Starts with the body's present pose and velocity, with a transition of this duration to the wanted motion \[s\].
@@ -312,11 +312,11 @@ impl KdTracker {
         let mut posed = raw;
         let Some(body) = world.body(character) else { return };
         let mut progress = 1.0;
-        if let Some(way) = &mut self.way {
-            posed = way.step(body, &raw, step_secs);
-            progress = way.progress();
-            if way.is_over() {
-                self.way = None;
+        if let Some(transition) = &mut self.transition {
+            posed = transition.step(body, &raw, step_secs);
+            progress = transition.progress();
+            if transition.is_over() {
+                self.transition = None;
             }
         }
         self.raw_velocity = (raw.hips_position - self.raw.hips_position) / step_secs;
@@ -350,7 +350,7 @@ impl KdTracker {
                 self.begin_where_it_is(JUMP_SECS);
             } else {
                 let blend = InertialBlend::between(body, &self.posed, &pose, velocity, JUMP_SECS);
-                self.way = Some(Transition::InertialBlend(blend));
+                self.transition = Some(Transition::InertialBlend(blend));
             }
             self.interpolator = PoseInterpolator::rest(&pose);
             (self.raw, self.raw_velocity) = (pose, DVec3::ZERO);
@@ -369,7 +369,8 @@ impl KdTracker {
             pose.world = pose.world.map(|rotation| carried.rotation_back(rotation));
         }
         let Some(body) = world.body(character) else { return };
-        self.way = Some(Transition::from_body(body, [&pose, &self.raw], [velocity, self.raw_velocity], over_secs));
+        self.transition =
+            Some(Transition::from_body(body, [&pose, &self.raw], [velocity, self.raw_velocity], over_secs));
         self.now = Instant::of(body, &pose);
         // Its previous pose is extrapolated from its velocity, so that feed-forward does not accelerate it to the speed
         // that it has.

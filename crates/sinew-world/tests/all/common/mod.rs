@@ -12,11 +12,11 @@ pub fn adult() -> Body {
 }
 
 /// Numbers from 0 to 1 that are the same on every machine.
-pub struct Dice(u64);
+pub struct Rng(u64);
 
-impl Dice {
-    pub fn new(seed: u64) -> Dice {
-        Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+impl Rng {
+    pub fn new(seed: u64) -> Rng {
+        Rng(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
     }
 
     pub fn unit(&mut self) -> f64 {
@@ -42,36 +42,36 @@ pub fn is_hinge(node: Node) -> bool {
 }
 
 /// A joint's turn somewhere inside its limit: `reach` of the way from the middle of its range to the edge, at most.
-pub fn within(body: &Body, node: Node, dice: &mut Dice, reach: f64) -> DQuat {
+pub fn within(body: &Body, node: Node, rng: &mut Rng, reach: f64) -> DQuat {
     let limit = body.link(node).limit;
     // Knees are hinges: their swing is about X alone.
     let hinge = is_hinge(node);
     let angle = if hinge {
-        [0.0, 0.5][usize::from(dice.unit() > 0.5)] * std::f64::consts::TAU
+        [0.0, 0.5][usize::from(rng.unit() > 0.5)] * std::f64::consts::TAU
     } else {
-        dice.between(0.0, std::f64::consts::TAU)
+        rng.between(0.0, std::f64::consts::TAU)
     };
     let (sin, cos) = libm::sincos(angle);
     let (sin, cos) = if hinge { (0.0, cos) } else { (sin, cos) };
     let ratio = limit.swing_ratio(cos, sin);
-    let swing = DVec3::new(cos, 0.0, sin) / ratio * dice.between(0.0, reach);
+    let swing = DVec3::new(cos, 0.0, sin) / ratio * rng.between(0.0, reach);
     let twist = if hinge {
         0.0
     } else {
         let middle = (limit.twist.0 + limit.twist.1) / 2.0;
-        middle + (limit.twist.1 - limit.twist.0) / 2.0 * dice.between(-reach, reach)
+        middle + (limit.twist.1 - limit.twist.0) / 2.0 * rng.between(-reach, reach)
     };
     limit.centre * exp(swing) * exp(DVec3::Y * twist)
 }
 
 /// A pose of turns inside the limits, the whole body turned anyhow.
 pub fn odd_pose(body: &Body, seed: u64, reach: f64) -> Pose {
-    let mut dice = Dice::new(seed);
+    let mut rng = Rng::new(seed);
     let mut locals = [DQuat::IDENTITY; Node::COUNT];
     for node in Node::ALL.into_iter().skip(1) {
-        locals[node.index()] = within(body, node, &mut dice, reach);
+        locals[node.index()] = within(body, node, &mut rng, reach);
     }
-    locals[0] = exp(dice.vector() * 3.0);
+    locals[0] = exp(rng.vector() * 3.0);
     Pose::from_locals(DVec3::ZERO, &locals)
 }
 
