@@ -1,7 +1,10 @@
-//! The frame of a foot from the motion: level while it stands.
+//! The frame of a foot from the motion: level while it stands; and both on one floor.
 //!
 //! A rest pose says nothing about how a foot stands: files exported from another frame of the time line rest on bent ankles.
 //! The motion does: where ankle and toes are both as low as they ever come, the foot stands flat.
+//!
+//! A skeleton's toes say little about how high its ankles are: in captures those of one foot are up to 3 cm nearer to the floor
+//! than the other's. Its ankles do: at their lowest they are as high above the floor as feet are.
 
 use super::calibration::{Samples, from_x_and_down, position};
 use glam::{DQuat, DVec3};
@@ -31,14 +34,8 @@ pub(super) fn flat_foot(samples: &Samples, clip: &Clip, humanoid: &Humanoid, foo
     let [foot, toes, hip, knee, other] = FEET.into_iter().find(|parts| parts[0] == foot)?;
     let joint = humanoid.joint(foot)?;
     let at = |world: &[Transform], part| position(world, clip, humanoid, part);
-    let heights = |part: Part| -> Option<Vec<f64>> {
-        let mut heights: Vec<f64> = samples.frames().map(|world| Some(at(world, part)?.y)).collect::<Option<_>>()?;
-        heights.sort_by(f64::total_cmp);
-        Some(heights)
-    };
-    let lowest = |part: Part| heights(part).and_then(|heights| heights.get(heights.len() / LOWEST).copied());
-    let bone = |from, to| Some((at(&samples.reference, to)? - at(&samples.reference, from)?).length());
-    let leg = bone(hip, knee)? + bone(knee, foot)?;
+    let lowest = |part| lowest(samples, clip, humanoid, part);
+    let leg = leg_length(samples, clip, humanoid, [hip, knee, foot])?;
     let (ankle, toe) = (lowest(foot)?, lowest(toes)?);
     if ankle > lowest(other)? + SAME_FLOOR * leg {
         return None;
@@ -52,4 +49,36 @@ pub(super) fn flat_foot(samples: &Samples, clip: &Clip, humanoid: &Humanoid, foo
         Some(world[joint].rotation.conjugate() * DVec3::Y)
     })?;
     if up.length() < LEVEL { None } else { from_x_and_down(up.cross(rest * DVec3::Z), -up) }
+}
+
+/// The tips of the left and the right foot, each in its frame \[m\], of soles that stand on one floor: as far apart in depth as the ankles at their
+/// lowest, as deep as before on the whole. Unchanged where a foot never stands on the floor of the other.
+pub(super) fn on_one_floor(
+    samples: &Samples,
+    clip: &Clip,
+    humanoid: &Humanoid,
+    tips: [DVec3; 2],
+) -> Option<[DVec3; 2]> {
+    let [[left, _, hip, knee, right], _] = FEET;
+    let ankles = [lowest(samples, clip, humanoid, left)?, lowest(samples, clip, humanoid, right)?];
+    let leg = leg_length(samples, clip, humanoid, [hip, knee, left])?;
+    if (ankles[0] - ankles[1]).abs() > SAME_FLOOR * leg {
+        return None;
+    }
+    let floor = 0.5 * (ankles[0] + tips[0].y + ankles[1] + tips[1].y);
+    Some([tips[0].with_y(floor - ankles[0]), tips[1].with_y(floor - ankles[1])])
+}
+
+/// Height of a part at its lowest, but for the single dips of noise \[m\].
+fn lowest(samples: &Samples, clip: &Clip, humanoid: &Humanoid, part: Part) -> Option<f64> {
+    let height = |world: &[Transform]| Some(position(world, clip, humanoid, part)?.y);
+    let mut heights: Vec<f64> = samples.frames().map(height).collect::<Option<_>>()?;
+    heights.sort_by(f64::total_cmp);
+    heights.get(heights.len() / LOWEST).copied()
+}
+
+/// From hip over knee to ankle \[m\].
+fn leg_length(samples: &Samples, clip: &Clip, humanoid: &Humanoid, [hip, knee, foot]: [Part; 3]) -> Option<f64> {
+    let at = |part| position(&samples.reference, clip, humanoid, part);
+    Some((at(knee)? - at(hip)?).length() + (at(foot)? - at(knee)?).length())
 }

@@ -2,6 +2,7 @@
 
 use super::anthropometry::{STANDARD_STATURE_M, standard_offset, standard_tip};
 use super::calibration::{self, Samples, position};
+use super::flat_foot::on_one_floor;
 use super::{Body, Node, Pose, Shape};
 use glam::{DQuat, DVec3};
 use sinew_motion::{Clip, Humanoid, Part, Transform};
@@ -282,6 +283,10 @@ impl Bones {
                 // The toes add about a third to the length from ankle to ball.
                 tips[foot.index()] = ball * 1.35;
             }
+        }
+        let feet = [Node::LeftFoot, Node::RightFoot].map(Node::index);
+        if let Some(leveled) = on_one_floor(samples, clip, humanoid, feet.map(|foot| tips[foot])) {
+            feet.into_iter().zip(leveled).for_each(|(foot, tip)| tips[foot] = tip);
         }
         Bones { offsets, tips }
     }

@@ -2,7 +2,9 @@
 //! shapes are wider than the performer's.
 //!
 //! A performer's feet pass within a finger's breadth and arms lie against ribs; the shapes of a simulated body are wider in
-//! places. A pair that comes that near in the wanted pose does not collide, until both poses have it apart again.
+//! places, and the floor keeps its feet off those of a capture that dips into it. A pair that comes that near in the wanted
+//! pose does not collide, until both poses have it apart again: a foot that caught on the other leg would fall behind, stand on
+//! its toes and stay there.
 
 use super::instant::Instant;
 use glam::{DQuat, DVec3};
@@ -14,6 +16,10 @@ const NEAR_M: f64 = 0.015;
 
 /// Distance in the wanted pose above which a pair collides again, if it does not overlap in the body \[m\].
 const APART_M: f64 = 0.03;
+
+/// By how much further a pair is filtered at most whose parts are off the wanted pose, by as much as one is off more than the
+/// other \[m\].
+const MAX_OFF_M: f64 = 0.05;
 
 /// A capsule in a part's frame.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +59,8 @@ impl SelfCollision {
     pub(crate) fn look(&mut self, wanted: &Instant, body: &CharacterFrame) -> [u32; Node::COUNT] {
         for &(one, other) in &self.pairs {
             let passes = self.masks[one] & 1 << other != 0;
-            let near = if passes { APART_M } else { NEAR_M };
+            let off = |at: usize| body.parts[at].position - wanted.joints[at];
+            let near = (off(one) - off(other)).length().min(MAX_OFF_M) + if passes { APART_M } else { NEAR_M };
             let in_pose = |at: usize| (wanted.joints[at], wanted.rotations[at]);
             let in_body = |at: usize| (body.parts[at].position, body.parts[at].rotation);
             let still = self.nearer(one, other, near, in_pose) || passes && self.nearer(one, other, 0.0, in_body);
