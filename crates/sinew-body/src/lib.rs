@@ -28,6 +28,7 @@ extern crate self as sinew_body;
 
 pub mod dynamics;
 mod gravity;
+pub mod grounding;
 pub mod humanoid;
 pub mod measure;
 pub mod walk;

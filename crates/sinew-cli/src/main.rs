@@ -3,6 +3,7 @@
 mod convert;
 mod files;
 mod flag_names;
+mod ground;
 mod inspect;
 mod interactive;
 #[cfg(feature = "session")]
@@ -25,6 +26,7 @@ mod without_session;
 
 use clap::{Parser, Subcommand};
 use number::within;
+use sinew::jobs::ground::GroundError;
 use sinew::jobs::reach::ReachError;
 use sinew::jobs::respond::RespondError;
 use sinew::motion::formats::ReadOptions;
@@ -45,6 +47,8 @@ enum Command {
     Inspect(inspect::Inspect),
     /// Convert a motion file into another format.
     Convert(convert::Convert),
+    /// Put a clip on its floor: no sliding, floating, sinking or shaking feet.
+    Ground(ground::Ground),
     /// Push a character: it yields and recovers.
     Respond(respond::Respond),
     /// Reach for a target with arms, spine, head and legs.
@@ -108,6 +112,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Inspect(command) => command.run(),
         Command::Convert(command) => command.run(),
+        Command::Ground(command) => command.run(),
         Command::Respond(command) => command.run(),
         Command::Reach(command) => command.run(),
         Command::Run(command) => command.run(),
@@ -133,5 +138,7 @@ fn main() -> ExitCode {
 
 /// Whether an error is about the arguments, independent of the file.
 fn is_wrong_usage(error: &anyhow::Error) -> bool {
-    error.downcast_ref().is_some_and(RespondError::is_of_job) || error.downcast_ref().is_some_and(ReachError::is_of_job)
+    error.downcast_ref().is_some_and(RespondError::is_of_job)
+        || error.downcast_ref().is_some_and(ReachError::is_of_job)
+        || error.downcast_ref().is_some_and(GroundError::is_of_job)
 }

@@ -358,6 +358,7 @@ impl Response {
             hips_shift: self.state.shown.shift,
             hips_turn: self.state.shown.turn,
             ground_shift: self.state.ground,
+            foot_shifts: [DVec3::ZERO; 2],
             turns: to_vectors(&self.state.deviation),
         }
     }

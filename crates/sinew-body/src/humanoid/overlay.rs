@@ -26,6 +26,8 @@ pub struct Deviation {
     pub hips_turn: DVec3,
     /// Shift of the ground that the body stands on \[m of the clip\]: hips and feet move with it.
     pub ground_shift: DVec3,
+    /// Shift of the left and right foot against the ground that they stand on, world frame \[m of the clip\]; the leg follows.
+    pub foot_shifts: [DVec3; 2],
     /// Per node of the upper body, a rotation vector in the node's own anatomical frame \[rad\]: the local rotation is the
     /// input's times its [`exp`]. The hips' entry is unused.
     pub turns: [DVec3; UPPER_NODES],
@@ -37,6 +39,7 @@ impl Deviation {
         hips_shift: DVec3::ZERO,
         hips_turn: DVec3::ZERO,
         ground_shift: DVec3::ZERO,
+        foot_shifts: [DVec3::ZERO; 2],
         turns: [DVec3::ZERO; UPPER_NODES],
     };
 
@@ -57,6 +60,7 @@ impl Deviation {
             hips_shift: mix(&|deviation| deviation.hips_shift),
             hips_turn: mix(&|deviation| deviation.hips_turn),
             ground_shift: mix(&|deviation| deviation.ground_shift),
+            foot_shifts: std::array::from_fn(|foot| mix(&|deviation| deviation.foot_shifts[foot])),
             turns: std::array::from_fn(|node| mix(&|deviation| deviation.turns[node])),
         }
     }
@@ -68,13 +72,19 @@ impl Deviation {
             hips_shift: on(self.hips_shift, from.hips_shift),
             hips_turn: on(self.hips_turn, from.hips_turn),
             ground_shift: on(self.ground_shift, from.ground_shift),
+            foot_shifts: std::array::from_fn(|foot| on(self.foot_shifts[foot], from.foot_shifts[foot])),
             turns: std::array::from_fn(|node| on(self.turns[node], from.turns[node])),
         }
     }
 
     /// The same with scaled shifts: metres of the clip from metres of the body.
     pub fn with_shifts_scaled(&self, scale: f64) -> Deviation {
-        Deviation { hips_shift: self.hips_shift * scale, ground_shift: self.ground_shift * scale, ..*self }
+        Deviation {
+            hips_shift: self.hips_shift * scale,
+            ground_shift: self.ground_shift * scale,
+            foot_shifts: self.foot_shifts.map(|shift| shift * scale),
+            ..*self
+        }
     }
 }
 
@@ -190,7 +200,7 @@ impl<'a> Overlay<'a> {
         }
     }
 
-    /// The changes with both legs bent so that the feet stay where the input has them, and the hips' shift. Their deviation is
+    /// The changes with both legs bent so that the feet stay where the input has them, or are shifted from there, and the hips' shift. Their deviation is
     /// what the source's own legs allow, which may differ by millimetres from the body's.
     fn planted(&self, world: &[Transform], input: &[DQuat; Node::COUNT], deviation: &Deviation) -> (Turned, DVec3) {
         let at = |node: Node| Some(world[self.reduction.joint(node)?].translation);
@@ -212,13 +222,16 @@ impl<'a> Overlay<'a> {
             let moved = carried(side, &turned) - joint - exp(wanted.turn) * (legs[side].hip - joint);
             if moved.length() > NOTHING { moved } else { DVec3::ZERO }
         });
+        // A foot that moves away is to its leg what a hip is that moves the other way.
+        let beside: [DVec3; 2] = std::array::from_fn(|side| beside[side] - deviation.foot_shifts[side]);
         if wanted.is_none() && beside == [DVec3::ZERO; 2] {
             return (turned, wanted.shift);
         }
         let hips = wanted.held_beside(&legs, joint, beside);
         turned = Turned::of(input, &Deviation { hips_turn: hips.turn, ..*deviation });
         for (side, (upper, lower, _)) in LEGS.into_iter().enumerate() {
-            let (thigh, shank) = solve_leg(&legs[side], carried(side, &turned) + hips.shift, legs[side].ankle);
+            let hip = carried(side, &turned) + hips.shift - deviation.foot_shifts[side];
+            let (thigh, shank) = solve_leg(&legs[side], hip, legs[side].ankle);
             turned.nodes[upper.index()] = thigh;
             turned.nodes[lower.index()] = shank;
         }

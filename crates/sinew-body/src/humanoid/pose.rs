@@ -65,7 +65,9 @@ impl Pose {
     pub fn deviated(&self, body: &Body, deviation: &Deviation) -> Pose {
         let mut pose = *self;
         let wanted = HipsDeviation { shift: deviation.hips_shift, turn: deviation.hips_turn };
-        let hips = if wanted.is_none() { wanted } else { wanted.held_by(&self.legs(body), self.hips_position) };
+        let beside = deviation.foot_shifts.map(|shift| DVec3::ZERO - shift);
+        let is_planted = wanted.is_none() && beside == [DVec3::ZERO; 2];
+        let hips = if is_planted { wanted } else { wanted.held_beside(&self.legs(body), self.hips_position, beside) };
         pose.hips_position += hips.shift + deviation.ground_shift;
         let hips_turned = exp(hips.turn);
         let mut moved = [false; UPPER_NODES];
@@ -80,8 +82,13 @@ impl Pose {
                 pose.world[at] = (pose.world[parent] * (self.local(node) * exp(deviation.turns[at]))).normalize();
             }
         }
-        if !hips.is_none() {
-            pose.plant_feet(body, self, hips.shift, hips_turned);
+        if !is_planted {
+            for (side, (leg, (upper, lower, _))) in self.legs(body).iter().zip(LEGS).enumerate() {
+                let hip = self.hips_position + hips.shift + hips_turned * (leg.hip - self.hips_position) + beside[side];
+                let (thigh, shank) = solve_leg(leg, hip, leg.ankle);
+                pose.world[upper.index()] = (thigh * self.world[upper.index()]).normalize();
+                pose.world[lower.index()] = (shank * self.world[lower.index()]).normalize();
+            }
         }
         pose
     }

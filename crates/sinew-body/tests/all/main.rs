@@ -5,6 +5,7 @@ mod dynamics_allocation;
 mod dynamics_common;
 mod dynamics_lanes;
 mod dynamics_vectors;
+mod grounding;
 #[path = "../../src/humanoid/limb/limb_random.rs"]
 mod limb_random;
 mod limb_targets;

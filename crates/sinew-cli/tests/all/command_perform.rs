@@ -50,8 +50,9 @@ fn a_performance_over_a_socket_is_reported_replayed_re_run_on_another_body_and_p
     let folder = folder.path();
     let ports = scene(folder);
     let first = run(folder, ports[1], &["--take", "first.take", "--report", "r.json"]);
-    // 60 a second for three seconds less what is lost; a machine with much to do starts the performer late.
-    assert!((40..200).contains(&count(&first, "red", "received")), "{}", first["actors"]);
+    // 60 a second for three seconds of the scene less what is lost; a machine with much to do starts the performer late, or takes
+    // longer than three seconds.
+    assert!((40..2000).contains(&count(&first, "red", "received")), "{}", first["actors"]);
     assert!(count(&first, "red", "lost") > 0 && count(&first, "red", "rejected") > 0, "{}", first["actors"]);
     assert_eq!(first["actors"]["red"]["lost_is_estimate"], false);
     assert!(first["actors"]["red"]["latency_ms"]["p99"].as_f64().unwrap() > 0.0);

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod command;
+mod command_ground;
 mod command_inspect;
 mod command_perform;
 mod command_reach;

@@ -3,6 +3,7 @@
 //! A job is a plain struct with a [`Default`]; the function of the same name runs it.
 
 mod camera;
+pub mod ground;
 pub mod inspect;
 mod moments;
 pub mod reach;
