@@ -1,7 +1,8 @@
 //! The library's messages name fields; whoever types reads the options instead.
 
 /// Fields as the library's messages name them, and the options that set them.
-const OPTIONS: [(&str, &str); 12] = [
+const OPTIONS: [(&str, &str); 13] = [
+    ("ReadOptions::unit_m", "--units"),
     ("GroundJob::floor_m", "--floor"),
     ("ReachJob::target", "--target X:Y:Z"),
     ("ReachJob::moving", "--moving X:Y:Z@SECONDS"),

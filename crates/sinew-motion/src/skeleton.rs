@@ -22,6 +22,19 @@ pub struct Skeleton {
     joints: Vec<Joint>,
 }
 
+/// Whether a joint's name says that it only marks an end.
+fn is_end(name: &str) -> bool {
+    let name = name.rsplit([':', '|']).next().unwrap_or(name);
+    let name = name.trim_end_matches(|end: char| end.is_ascii_digit() || !end.is_alphanumeric());
+    let lower = name.to_lowercase();
+    ["end", "nub", "tip", "endsite", "end site"].iter().any(|word| {
+        let Some(before) = lower.strip_suffix(word) else { return false };
+        let is_word = |at: usize| name.get(at..).is_some_and(|end| end.starts_with(|first: char| first.is_uppercase()));
+        // `bend` and `Hand_tip` differ by what stands before.
+        before.is_empty() || !before.ends_with(char::is_alphanumeric) || is_word(before.len()) || *word == "nub"
+    })
+}
+
 impl Skeleton {
     /// An empty skeleton.
     pub fn new() -> Skeleton {
@@ -49,6 +62,28 @@ impl Skeleton {
         for (index, joint) in self.joints.iter_mut().enumerate() {
             edit(index, &mut joint.name, &mut joint.rest, &mut joint.tip);
         }
+    }
+
+    /// Where a joint's bone ends, in its own frame \[file units or m\]: at its tip or, where that is not stated, at a leaf below it that exists
+    /// only to say so: Blender's `head_end`, Mixamo's `HeadTop_End`, 3ds Max's `Bip01 HeadNub`.
+    ///
+    /// ```
+    /// use glam::{DQuat, DVec3};
+    /// use sinew_motion::{Joint, Skeleton, Transform};
+    /// let mut skeleton = Skeleton::new();
+    /// let head = skeleton.push(Joint { name: "head".into(), parent: None, rest: Transform::IDENTITY, tip: None });
+    /// let rest = Transform::new(DQuat::IDENTITY, DVec3::Y * 0.2);
+    /// skeleton.push(Joint { name: "head_end".into(), parent: Some(head), rest, tip: None });
+    /// assert_eq!(skeleton.end(head), Some(DVec3::Y * 0.2));
+    /// ```
+    pub fn end(&self, joint: usize) -> Option<DVec3> {
+        let own = self.joints[joint].tip.filter(|tip| *tip != DVec3::ZERO);
+        let is_parent = |index: usize| self.joints.iter().any(|joint| joint.parent == Some(index));
+        own.or_else(|| {
+            let below = self.joints.iter().enumerate().filter(|(_, below)| below.parent == Some(joint));
+            let mut ends = below.filter(|(index, below)| is_end(&below.name) && !is_parent(*index));
+            ends.next().map(|(_, end)| end.rest.translation).filter(|end| *end != DVec3::ZERO)
+        })
     }
 
     /// How many joints there are.

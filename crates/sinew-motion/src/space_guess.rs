@@ -102,7 +102,14 @@ pub fn guess_space(
         )));
     }
     if doubt(stature_m) > OUT_OF_THE_QUESTION {
-        notes.push(Note::new(format!("a stature of {stature_m:.3} m is not human: check the unit")));
+        let best = alternatives.first().map(|other| {
+            let unit_m = round(other.unit_m);
+            format!("; with a unit of {unit_m} m (--units {unit_m}) it is {:.2} m", other.stature_m)
+        });
+        notes.push(Note::new(format!(
+            "a stature of {stature_m:.3} m is not human: check the unit{}",
+            best.unwrap_or_default()
+        )));
     }
     let up = up_axis(clip, humanoid);
     let space = world_from_source.unwrap_or_else(|| {

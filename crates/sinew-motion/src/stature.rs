@@ -45,7 +45,7 @@ pub fn stature(clip: &Clip, humanoid: &Humanoid) -> f64 {
         sum
     });
     let top = humanoid.neck_chain().last().copied().unwrap_or(humanoid.head());
-    let tip = clip.skeleton().joints()[top].tip.map_or(0.0, |tip| tip.length());
+    let tip = clip.skeleton().end(top).map_or(0.0, |tip| tip.length());
     let sole = sole_below_ankle(clip, humanoid, &poses);
     // A share of the whole that is not measured is solved for.
     let mut measured = 1.0;
@@ -87,7 +87,7 @@ pub(crate) fn foot_points(clip: &Clip, humanoid: &Humanoid, side: Side) -> Vec<(
     if let Some(toes) = humanoid.toes(side) {
         points.push((toes, DVec3::ZERO));
     }
-    if let Some(tip) = clip.skeleton().joints()[last].tip {
+    if let Some(tip) = clip.skeleton().end(last) {
         points.push((last, tip));
     }
     points

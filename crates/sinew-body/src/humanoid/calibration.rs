@@ -30,12 +30,11 @@ pub(super) struct Samples {
 
 /// Position of a part; the end of the limb if the part itself is missing.
 pub(super) fn position(world: &[Transform], clip: &Clip, humanoid: &Humanoid, part: Part) -> Option<DVec3> {
-    let joints = clip.skeleton().joints();
     match humanoid.joint(part) {
         Some(joint) => Some(world[joint].translation),
         None => {
             let parent = humanoid.joint(part.parent()?)?;
-            joints[parent].tip.map(|tip| world[parent].point(tip))
+            clip.skeleton().end(parent).map(|tip| world[parent].point(tip))
         }
     }
 }

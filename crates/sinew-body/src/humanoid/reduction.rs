@@ -38,12 +38,30 @@ pub enum ReductionError {
         /// The height asked for or measured \[m\].
         height_m: f64,
     },
+    /// The skeleton is too small or too large for a body, which most often means another unit.
+    #[error("a skeleton of {stature_m:.2} m is out of range (0.2 to 10 m){}", unit_hint(*.stature_m))]
+    Stature {
+        /// Its stature \[m\].
+        stature_m: f64,
+    },
     /// A bone that needs a length has none.
     #[error("the {part} has no length in this skeleton; check the mapping that `sinew inspect` prints")]
     NoLength {
         /// The part whose bone is too short.
         part: Part,
     },
+}
+
+/// Factors between the units in which people mistake a file's: centimetres, millimetres, inches, feet.
+const FACTORS: [f64; 8] = [0.01, 100.0, 0.001, 1000.0, 0.0254, 1.0 / 0.0254, 0.3048, 1.0 / 0.3048];
+
+/// Which unit would make a person of a skeleton that was read as metres.
+fn unit_hint(stature_m: f64) -> String {
+    let person = FACTORS.into_iter().find(|factor| (1.2..=2.2).contains(&(factor * stature_m)));
+    let factor = person.map(|factor| if factor > 1.0 { factor.round() } else { factor });
+    factor.map_or(String::new(), |factor| {
+        format!("; as metres per unit of the file, ReadOptions::unit_m {factor} gives {:.2} m", factor * stature_m)
+    })
 }
 
 /// Which joint carries a node, and the constant rotation between their frames.
@@ -74,10 +92,10 @@ impl Reduction {
     /// When the person is out of range or a limb has no length.
     pub fn new(clip: &Clip, humanoid: &Humanoid, stature_m: f64, person: Person) -> Result<Reduction, ReductionError> {
         let height_m = person.height_m.unwrap_or(stature_m);
-        let in_range = (1.0..=1000.0).contains(&person.mass_kg)
-            && (0.2..=10.0).contains(&height_m)
-            && (0.2..=10.0).contains(&stature_m);
-        if !in_range {
+        if !(0.2..=10.0).contains(&stature_m) {
+            return Err(ReductionError::Stature { stature_m });
+        }
+        if !(1.0..=1000.0).contains(&person.mass_kg) || !(0.2..=10.0).contains(&height_m) {
             return Err(ReductionError::Person { mass_kg: person.mass_kg, height_m });
         }
         let samples = Samples::of(clip, humanoid);

@@ -62,6 +62,9 @@ impl MotionFile {
             Format::Bvh => bvh::read(&bytes_of(path, limits)?, limits),
             Format::Fbx => fbx::read(&bytes_of(path, limits)?, limits),
             Format::Gltf | Format::Glb => gltf::read(path, limits),
+            Format::Amc if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("asf")) => {
+                amc::read_rest(&bytes_of(path, limits)?, limits)
+            }
             Format::Amc => {
                 let skeleton = amc::find_skeleton(path, options.skeleton.as_deref())?;
                 amc::read(&bytes_of(path, limits)?, &bytes_of(&skeleton, limits)?, limits)

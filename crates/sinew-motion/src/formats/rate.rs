@@ -2,6 +2,10 @@
 
 /// Usual rates of capture and animation \[Hz\].
 const COMMON_HZ: [f64; 13] = [24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 72.0, 90.0, 100.0, 120.0, 150.0, 200.0, 240.0];
+/// Rates of video in NTSC countries: a thousandth below the common ones \[Hz\].
+const NTSC_HZ: [f64; 4] = [24_000.0 / 1001.0, 30_000.0 / 1001.0, 60_000.0 / 1001.0, 120_000.0 / 1001.0];
+/// Keys nearer to frames than this are on them: single-precision times \[frames\].
+const EXACT: f64 = 0.003;
 /// How far a key may be from a frame \[frames\]: times are single precision, and some exporters round to milliseconds.
 const ON_FRAME: f64 = 0.07;
 /// Keys farther apart than this do not show the frame rate \[s\].
@@ -11,8 +15,8 @@ const OWN_HZ: std::ops::RangeInclusive<f64> = 10.0..=1000.0;
 /// Fewer keys than this would cut the corners of curves \[Hz\].
 const CURVES_HZ: f64 = 24.0;
 
-/// The common rate that the keys have; else their own uniform rate; else the lowest common rate whose frames hold every
-/// key; `None` if the keys do not show a rate.
+/// The common rate that the keys have, a thousandth less where that fits them clearly better; else their own uniform rate; else the
+/// lowest common rate whose frames hold every key; `None` if the keys do not show a rate.
 ///
 /// `tracks` holds the key times of each track \[s\], ascending; `curved` says that splines lead from key to key.
 pub(crate) fn rate_hz<'a>(tracks: impl Iterator<Item = &'a [f64]> + Clone, curved: bool) -> Option<f64> {
@@ -22,18 +26,24 @@ pub(crate) fn rate_hz<'a>(tracks: impl Iterator<Item = &'a [f64]> + Clone, curve
     if mean_secs > SPARSE_SECS {
         return None;
     }
-    let holds_all = |hz: f64| {
+    let off_frames = |hz: f64| {
         let off_frame = |time: f64| {
             let frame = (time - start) * hz;
             (frame - frame.round()).abs()
         };
-        // Times rounded to a fraction drift by no more than the rounding, so a fixed share of a frame bounds them.
-        hz * mean_secs > 0.9 && tracks.clone().all(|times| times.iter().all(|&time| off_frame(time) < ON_FRAME))
+        tracks.clone().flatten().map(|&time| off_frame(time)).fold(0.0, f64::max)
     };
+    // Times rounded to a fraction drift by no more than the rounding, so a fixed share of a frame bounds them.
+    let holds_all = |hz: f64| hz * mean_secs > 0.9 && off_frames(hz) < ON_FRAME;
     let own_hz = 1.0 / mean_secs;
     let near = COMMON_HZ.iter().copied().filter(|hz| (hz / own_hz - 1.0).abs() < 0.02);
     let own = [own_hz.round(), own_hz].into_iter().filter(|hz| OWN_HZ.contains(hz) && (!curved || *hz >= CURVES_HZ));
-    near.chain(own).chain(COMMON_HZ).find(|&hz| holds_all(hz))
+    let video = |hz: f64| {
+        let video = NTSC_HZ.into_iter().find(|video| (video / hz - 1.0).abs() < 0.0015)?;
+        (off_frames(hz) > EXACT && off_frames(video) < 0.5 * off_frames(hz)).then_some(video)
+    };
+    let fits = |hz: f64| video(hz).filter(|video| holds_all(*video)).or_else(|| holds_all(hz).then_some(hz));
+    near.chain(own).chain(COMMON_HZ).find_map(fits)
 }
 
 #[cfg(test)]
@@ -48,6 +58,20 @@ mod tests {
     fn keys_of_a_common_rate_are_recognised_through_single_precision() {
         for hz in [24.0, 25.0, 30.0, 60.0, 120.0, 240.0] {
             assert_eq!(rate_hz([keys(hz, 1000).as_slice()].into_iter(), false), Some(hz));
+        }
+    }
+
+    #[test]
+    fn video_rates_are_kept_from_four_keys_on() {
+        for (hz, video) in [(24.0, 24_000.0), (30.0, 30_000.0), (60.0, 60_000.0), (120.0, 120_000.0)] {
+            for count in [5, 24, 48, 73, 1000] {
+                let found = rate_hz([keys(video / 1001.0, count).as_slice()].into_iter(), false);
+                assert_eq!(found, Some(video / 1001.0), "{count} keys");
+                assert_eq!(rate_hz([keys(hz, count).as_slice()].into_iter(), false), Some(hz), "{count} keys");
+                // Times that an exporter printed in milliseconds.
+                let rounded: Vec<f64> = keys(hz, count).iter().map(|time| (time * 1e3).round() / 1e3).collect();
+                assert_eq!(rate_hz([rounded.as_slice()].into_iter(), false), Some(hz), "{count} keys");
+            }
         }
     }
 

@@ -13,6 +13,7 @@ mod gltf_write;
 mod humanoid_dialects;
 mod humanoid_files;
 mod motion_files;
+mod odd_files;
 mod signal;
 mod text;
 mod text_dialects;

@@ -1,7 +1,7 @@
 //! A new skeleton with its motion.
 
 use super::plan::{Planned, plan};
-use crate::formats::text::{Axis, Baked, fixed, nearest, no_rotation, send};
+use crate::formats::text::{Axis, Baked, fixed, nearest, no_rotation, send, without_helpers};
 use crate::{Clip, Error};
 use glam::DVec3;
 use std::fmt::Write as _;
@@ -16,6 +16,7 @@ const OUTERMOST_FIRST: [Axis; 3] = [Axis::Z, Axis::Y, Axis::X];
 
 /// Writes the skeleton of a clip.
 pub(super) fn write_skeleton(out: &mut dyn Write, clip: &Clip) -> Result<(), Error> {
+    let clip = &*without_helpers(clip);
     let bones = plan(clip, &Baked::new(clip))?;
     let mut text = format!(
         ":version 1.10\n:name Sinew\n:units\n  mass 1.0\n  length {LENGTH}\n  angle deg\n:documentation\n   Written by \
@@ -55,16 +56,25 @@ fn push_bone(text: &mut String, id: usize, bone: &Planned) {
         bone.name,
         fixed(length / UNIT_M, 9)
     );
-    match (bone.joint, bone.moves) {
-        (None, _) => {}
-        (Some(_), false) => text.push_str("    dof rx ry rz\n"),
-        (Some(_), true) => text.push_str("    dof tx ty tz rx ry rz\n"),
+    let dof = match (bone.joint, bone.moves) {
+        (None, _) => "",
+        (Some(_), false) => "rx ry rz",
+        (Some(_), true) => "tx ty tz rx ry rz",
+    };
+    // Readers take limits for granted, one for each degree of freedom.
+    for (number, word) in dof.split_whitespace().enumerate() {
+        let limit = if word.starts_with('t') { "(-1000 1000)" } else { "(-360 360)" };
+        match number {
+            0 => _ = writeln!(text, "    dof {dof}\n    limits {limit}"),
+            _ => _ = writeln!(text, "           {limit}"),
+        }
     }
     text.push_str("  end\n");
 }
 
 /// Writes the motion to that skeleton.
 pub(super) fn write(out: &mut dyn Write, clip: &Clip) -> Result<(), Error> {
+    let clip = &*without_helpers(clip);
     let baked = Baked::new(clip);
     let bones = plan(clip, &baked)?;
     send(out, b"# Written by Sinew\n:FULLY-SPECIFIED\n:DEGREES\n")?;

@@ -62,6 +62,18 @@ pub fn read_skeleton(bytes: &[u8], limits: &Limits) -> Result<Asf, Error> {
     skeleton::read(bytes, limits)
 }
 
+/// Reads a skeleton alone as a motion of one frame: its rest pose.
+///
+/// # Errors
+/// As [`read_skeleton`].
+pub fn read_rest(asf: &[u8], limits: &Limits) -> Result<Parsed, Error> {
+    let skeleton = read_skeleton(asf, limits)?;
+    let zeros = " 0".repeat(skeleton.bones.first().map_or(0, |root| root.dof.len()));
+    let mut parsed = read(format!(":DEGREES\n1\nroot{zeros}\n").as_bytes(), asf, limits)?;
+    parsed.notes.push(Note::new("a skeleton without a motion: the clip is one frame of its rest pose"));
+    Ok(parsed)
+}
+
 /// Reads a motion with its skeleton; [`find_skeleton`] finds the skeleton of a motion.
 ///
 /// The clip is in the file's units and axes, see [`Parsed::clip`].

@@ -1,6 +1,6 @@
 //! A new BVH file.
 
-use crate::formats::text::{Axis, Baked, fixed, nearest, no_rotation, send};
+use crate::formats::text::{Axis, Baked, fixed, nearest, no_rotation, send, without_helpers};
 use crate::{Clip, Error};
 use glam::DVec3;
 use std::io::Write;
@@ -12,6 +12,7 @@ const ORDER: [Axis; 3] = [Axis::Z, Axis::X, Axis::Y];
 
 /// Writes a clip with at least one joint.
 pub(super) fn write(out: &mut dyn Write, clip: &Clip) -> Result<(), Error> {
+    let clip = &*without_helpers(clip);
     let baked = Baked::new(clip);
     let order = baked.depth_first();
     let moves: Vec<bool> = (0..clip.skeleton().len())

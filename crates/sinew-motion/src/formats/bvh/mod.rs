@@ -44,6 +44,7 @@ pub use document::BvhDocument;
 use super::text::{Losses, check_finite, text_start};
 use super::{Document, Parsed, WriteJob};
 use crate::{Clip, Error, Limits, Note, Place};
+use glam::DVec3;
 use std::io::Write;
 use std::sync::Arc;
 
@@ -71,8 +72,31 @@ pub fn read(bytes: &[u8], limits: &Limits) -> Result<Parsed, Error> {
     let moving = header.columns.iter().enumerate().filter(|(_, columns)| columns.moves()).map(|(joint, _)| joint);
     let mut clip = Clip::new(header.skeleton, timing.frame_time_secs, moving.collect());
     let rows = motion::rows(bytes, &timing, &header.columns, limits, &mut clip, &mut notes)?;
+    add_offsets(&mut clip, &mut notes);
     let document = BvhDocument { bytes: Arc::from(bytes), columns: header.columns, timing, rows };
     Ok(Parsed { clip, unit_m: None, world_from_source: None, document: Document::Bvh(Box::new(document)), notes })
+}
+
+/// Joints whose positions are all 0 beside an OFFSET: some exporters mean positions from there, and without it a body collapses.
+fn add_offsets(clip: &mut Clip, notes: &mut Vec<Note>) {
+    let offset = |clip: &Clip, joint: usize| clip.skeleton().joints()[joint].rest.translation;
+    let collapsed: Vec<usize> = clip
+        .moving()
+        .iter()
+        .copied()
+        .filter(|&joint| clip.skeleton().joints()[joint].parent.is_some() && offset(clip, joint) != DVec3::ZERO)
+        .filter(|&joint| (0..clip.frames()).all(|frame| clip.translation(frame, joint) == DVec3::ZERO))
+        .collect();
+    for &joint in &collapsed {
+        let offset = offset(clip, joint);
+        (0..clip.frames()).for_each(|frame| clip.set_translation(frame, joint, offset));
+    }
+    if let Some(&first) = collapsed.first().filter(|_| clip.frames() > 0) {
+        let (count, name) = (collapsed.len(), &clip.skeleton().joints()[first].name);
+        notes.push(Note::new(format!(
+            "the positions of {count} joints ({name} first) are 0 in every frame, where their OFFSET is not: the OFFSET is added"
+        )));
+    }
 }
 
 /// Writes a BVH file: the source again with only the changed values replaced where the source is a BVH, a new file
