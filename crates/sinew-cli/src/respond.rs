@@ -32,6 +32,9 @@ pub(crate) struct Respond {
     /// Compliance of the body, from 0.25 (stiff) to 4 (loose).
     #[arg(long, value_name = "C", default_value_t = 1.0)]
     compliance: f64,
+    /// Keep pushed forearms and hands out of trunk, head and thighs, as far as the clip's are.
+    #[arg(long)]
+    arms_clear: bool,
     /// Number of coordinates under dynamics, 0 to 24.
     #[arg(short, value_name = "K", default_value_t = 10)]
     k: usize,
@@ -141,6 +144,7 @@ impl Respond {
                 CoordinatesName::High => Coordinates::High,
             },
             compliance: self.compliance,
+            arms_clear: self.arms_clear,
             ..Settings::default()
         }
     }

@@ -1,9 +1,9 @@
 //! The wanted motion as input of the response: one frame, and the step that led to it.
 
 use crate::torque::{Differences, steps, world_turn};
-use crate::upper_body::{Coordinates24, UpperBody, locals};
+use crate::upper_body::{ABOVE, Coordinates24, UpperBody, locals};
 use glam::{DQuat, DVec3};
-use sinew_body::humanoid::{Pose, UPPER_NODES};
+use sinew_body::humanoid::{Body, HipsDeviation, Node, Pose, UPPER_NODES, exp};
 use sinew_snapshot::snapshot;
 
 /// A wanted pose with the quantities derived from it and from the one before, each computed once.
@@ -56,4 +56,33 @@ impl Input {
         }
         .torque(upper)
     }
+}
+
+/// The wanted pose with the deviation on it, feet where the wanted pose has them.
+pub(crate) fn posed(
+    body: &Body,
+    wanted: &Input,
+    turned: &[DQuat; UPPER_NODES],
+    hips: &HipsDeviation,
+    ground: DVec3,
+) -> Pose {
+    let mut pose = wanted.pose;
+    pose.hips_position += hips.shift + ground;
+    let hips_turned = exp(hips.turn);
+    let mut moved = [false; UPPER_NODES];
+    if hips.turn != DVec3::ZERO {
+        pose.world[0] = hips_turned * wanted.pose.world[0];
+        moved[0] = true;
+    }
+    for node in ABOVE {
+        let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
+        moved[at] = moved[parent] || turned[at] != DQuat::IDENTITY;
+        if moved[at] {
+            pose.world[at] = (pose.world[parent] * (wanted.local[at] * turned[at])).normalize();
+        }
+    }
+    if !hips.is_none() {
+        pose.plant_feet(body, &wanted.pose, hips.shift, hips_turned);
+    }
+    pose
 }

@@ -32,8 +32,10 @@
 //! What it does not do: worlds, engines, files; steps, stumbles and falls.
 
 mod basis;
+mod clearance;
 mod deflection;
 mod force;
+mod grip;
 mod head;
 mod hips;
 mod input;

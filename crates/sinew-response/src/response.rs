@@ -1,16 +1,18 @@
 //! The response: pose in, forces in, pose out.
 
 use crate::basis::Basis;
+use crate::clearance::{Alert, Clearance};
 use crate::force::PointForce;
+use crate::grip::Grip;
 use crate::head::HeadReflex;
 use crate::hips::HipsState;
-use crate::input::Input;
+use crate::input::{Input, posed};
 use crate::limits::Limits;
 use crate::objective::{Frame, Objective, Row, Weighing};
 use crate::settings::{REFERENCE_MASS_KG, REFLEX_SECS, Settings, Weights};
 use crate::task::{MAX_ROWS, Task, rows_of};
 use crate::torque::{Differences, world_turn};
-use crate::upper_body::{ABOVE, Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
+use crate::upper_body::{Coordinates24, DOFS, JointMotion, UpperBody, to_coordinates, to_vectors};
 use glam::{DQuat, DVec3};
 use sinew_body::STANDARD_GRAVITY_M_S2;
 use sinew_body::humanoid::{Body, Deviation, HipsDeviation, Limit, Node, Pose, UPPER_DOFS, UPPER_NODES, exp, log};
@@ -33,6 +35,9 @@ const MAX_SPEED: f64 = 40.0;
 /// Bisections to find where a joint meets its limit: to 1e-5 of the step.
 const LIMIT_HALVINGS: usize = 17;
 
+/// Solves of a step at most in which further arms are found to come too near to the body.
+const CLEARINGS: usize = 3;
+
 /// A deviation that is nowhere larger, and does not grow by more in a step, is set to zero \[rad\]: it is invisible,
 /// and the body is exactly on its input again.
 const FORGOTTEN: f64 = 1e-12;
@@ -51,6 +56,7 @@ pub struct Response {
     weights: Weights,
     objective: Objective<f64>,
     rows: Vec<Row<f64>>,
+    clearance: Clearance,
     state: State,
     report: Report,
 }
@@ -85,6 +91,8 @@ struct State {
     turned: [DQuat; UPPER_NODES],
     hips: HipsState,
     head: HeadReflex,
+    grip: Grip,
+    alert: Alert,
     shown: HipsDeviation,
     /// The ground's shift in the frame before and in this one \[m\].
     ground_before: DVec3,
@@ -110,6 +118,8 @@ snapshot!(State {
     turned,
     hips,
     head,
+    grip,
+    alert,
     shown,
     ground_before,
     ground,
@@ -151,6 +161,8 @@ impl State {
             turned: [DQuat::IDENTITY; UPPER_NODES],
             hips: HipsState::default(),
             head: HeadReflex::default(),
+            grip: Grip::default(),
+            alert: Alert::default(),
             shown: HipsDeviation::default(),
             ground_before: DVec3::ZERO,
             ground: DVec3::ZERO,
@@ -187,6 +199,7 @@ impl Response {
             settings,
             weights,
             rows: Vec::with_capacity(MAX_ROWS),
+            clearance: Clearance::new(),
             state: State::at(first, first),
             report: Report::default(),
         }
@@ -221,6 +234,9 @@ impl Response {
         state.hips.advance(&self.body, &state.output, forces, dt);
         state.head.advance(forces, self.mass_kg * STANDARD_GRAVITY_M_S2, dt);
         let shown = state.hips.shown(&self.body, &next.pose);
+        if self.weights.hands_hold {
+            state.grip.advance(&self.body, &next.pose, dt);
+        }
         // The input's torque now.
         let aim =
             if self.weights.aims_at_input { state.input.torque(&next, &mut self.upper, dt) } else { [0.0; UPPER_DOFS] };
@@ -239,7 +255,7 @@ impl Response {
         aim: &Coordinates24,
         tasks: &[Task],
     ) -> Report {
-        let Response { body, upper, limits, weights, objective, state, rows, .. } = self;
+        let Response { body, upper, limits, weights, objective, state, rows, clearance, .. } = self;
         let dt = self.settings.time_step_secs;
         let ground_next = state.ground * 2.0 - state.ground_before + ground * (dt * dt);
         let hips_position = state.output.hips_position - state.ground;
@@ -277,10 +293,20 @@ impl Response {
             .torque_before
             .map_or(torque, |before| std::array::from_fn(|dof| before[dof] + (aim[dof] - state.aim_before[dof])));
         rows.clear();
-        if !tasks.is_empty() {
+        clearance.clear();
+        let is_off = !forces.is_empty() || !shown.is_none() || state.deviation.iter().any(|turn| *turn != 0.0);
+        state.alert.advance(!forces.is_empty(), dt);
+        let (looks, holds) = (is_off && weights.arms_clear && state.alert.is_on(), is_off && state.grip.holds());
+        if looks || holds || !tasks.is_empty() {
             // On ground at rest, the frame of the tasks.
             let kept = posed(body, &next, &state.turned, &shown, DVec3::ZERO);
             rows_of(tasks, &kept, body, dt, rows);
+            if holds {
+                state.grip.add_rows(body, &kept, &next.pose, dt, rows);
+            }
+            if looks {
+                clearance.look(body, [&state.output, &state.input.pose], [&kept, &next.pose], state.alert.share(), dt);
+            }
         }
         let coast = if weights.damps_relative {
             let kept = if weights.swing_secs > 0.0 { libm::exp(-dt / weights.swing_secs) } else { 0.0 };
@@ -300,9 +326,16 @@ impl Response {
             aim,
             reflex: (reflex > 0.0 && weights.reflex > 0.0).then_some((&torque_before, weights.reflex * reflex)),
             held: draws.is_some().then_some((&drawn, &drawn_to)),
-            rows,
+            rows: &[],
         };
-        let mut step = slowed(objective.solve(&frame), dt);
+        let mut step = slowed(objective.solve(&Frame { rows, ..frame }), dt);
+        for _ in 0..CLEARINGS {
+            if !clearance.add_missed(&step, rows) {
+                break;
+            }
+            step = slowed(objective.solve(&Frame { rows, ..frame }), dt);
+        }
+        frame.rows = rows;
         let mut limited = 0;
         let (mut turns, mut turned) = grown(&state.turned, &step);
         for node in 1..UPPER_NODES {
@@ -457,27 +490,4 @@ fn reined_in(limit: &Limit, local: DQuat, deviation: DVec3) -> DVec3 {
         if limit.contains(local * exp(deviation * middle)) { inside = middle } else { outside = middle }
     }
     deviation * inside
-}
-
-/// The wanted pose with the deviation on it, feet where the wanted pose has them.
-fn posed(body: &Body, wanted: &Input, turned: &[DQuat; UPPER_NODES], hips: &HipsDeviation, ground: DVec3) -> Pose {
-    let mut pose = wanted.pose;
-    pose.hips_position += hips.shift + ground;
-    let hips_turned = exp(hips.turn);
-    let mut moved = [false; UPPER_NODES];
-    if hips.turn != DVec3::ZERO {
-        pose.world[0] = hips_turned * wanted.pose.world[0];
-        moved[0] = true;
-    }
-    for node in ABOVE {
-        let (at, parent) = (node.index(), node.parent().map_or(0, Node::index));
-        moved[at] = moved[parent] || turned[at] != DQuat::IDENTITY;
-        if moved[at] {
-            pose.world[at] = (pose.world[parent] * (wanted.local[at] * turned[at])).normalize();
-        }
-    }
-    if !hips.is_none() {
-        pose.plant_feet(body, &wanted.pose, hips.shift, hips_turned);
-    }
-    pose
 }

@@ -61,6 +61,13 @@ pub struct Settings {
     /// Downward gravity of the world in which the motion takes place \[m/s²\]: any finite number, default 9.81. The torques
     /// that a motion uses depend on it, so a basis is made for one gravity.
     pub gravity_m_s2: f64,
+    /// Whether pushed forearms and hands stay out of trunk, head and thighs, as far as the input's do, until a second or so after
+    /// the push. Default `false`: small differences of a motion, as of a live stream, then change by more than a twentieth what
+    /// a push does to an arm that touches the body. Only the robust preset does it.
+    pub arms_clear: bool,
+    /// Whether hands that hold something between them in the input, before the trunk and at one distance for half a second,
+    /// keep their places relative to each other when they are pushed. Default `true`; only the robust preset does it.
+    pub hands_hold: bool,
 }
 
 impl Default for Settings {
@@ -72,6 +79,8 @@ impl Default for Settings {
             compliance: 1.0,
             time_step_secs: 1.0 / 60.0,
             gravity_m_s2: STANDARD_GRAVITY_M_S2,
+            arms_clear: false,
+            hands_hold: true,
         }
     }
 }
@@ -181,6 +190,10 @@ pub(crate) struct Weights {
     pub swing_secs: f64,
     /// Whether the neck keeps the head level against the trunk.
     pub levels_head: bool,
+    /// Whether arms stay out of the body.
+    pub arms_clear: bool,
+    /// Whether hands that hold something stay together.
+    pub hands_hold: bool,
 }
 
 impl Weights {
@@ -204,6 +217,8 @@ impl Weights {
             damps_relative: true,
             swing_secs: 0.0,
             levels_head: false,
+            arms_clear: false,
+            hands_hold: false,
         };
         match settings.preset {
             Preset::Robust => {
@@ -215,6 +230,8 @@ impl Weights {
                     dynamics: base.dynamics * stiff,
                     swing_secs: SWING_SECS / (loose * loose),
                     levels_head: true,
+                    arms_clear: settings.arms_clear,
+                    hands_hold: settings.hands_hold,
                     ..base
                 }
             }

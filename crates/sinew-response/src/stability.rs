@@ -84,7 +84,9 @@ fn growth_over(body: &Body, basis: &Basis, settings: &Settings, stretches: &[&[P
     for node in Node::ALL {
         body.link_mut(node).limit = Limit::NONE;
     }
-    let mut response = Response::new(body, basis.clone(), *settings, first);
+    // What stops an arm at the body is no linear part of a step, and for the first half second nobody knows what hands hold.
+    let settings = Settings { arms_clear: false, hands_hold: false, ..*settings };
+    let mut response = Response::new(body, basis.clone(), settings, first);
     let mut product = DMatrix::<f64>::identity(STATE, STATE);
     let mut any = false;
     for window in stretches.iter().flat_map(|stretch| stretch.windows(3)) {

@@ -91,7 +91,8 @@ pub(crate) const MAX_ROWS: usize = 2 * UPPER_NODES;
 /// Maximum weight of a row: far above every other row, far below a loss of digits.
 const HEAVIEST: f64 = 1e5;
 
-fn push(row: Row<f64>, rows: &mut Vec<Row<f64>>) {
+/// Appends a row that is finite and reaches a joint, while there is room.
+pub(crate) fn push(row: Row<f64>, rows: &mut Vec<Row<f64>>) {
     let finite =
         row.wanted.is_finite() && row.weight.is_finite() && row.direction.iter().all(|value| value.is_finite());
     let reaches = row.direction.iter().any(|&value| value != 0.0);
@@ -101,7 +102,7 @@ fn push(row: Row<f64>, rows: &mut Vec<Row<f64>>) {
 }
 
 /// Part of an error that is removed in a step if the whole falls to 1/e in a time.
-fn share(time_step_secs: f64, within_secs: f64) -> f64 {
+pub(crate) fn share(time_step_secs: f64, within_secs: f64) -> f64 {
     -libm::expm1(-time_step_secs / within_secs.max(1e-6))
 }
 
@@ -116,7 +117,7 @@ fn shortest_turn(from: DVec3, to: DVec3) -> DVec3 {
 }
 
 /// A row over the coordinates: the effect of each, from its axis and its joint's position in the world.
-fn row_of(
+pub(crate) fn row_of(
     node: Node,
     pose: &Pose,
     joints: &[DVec3; Node::COUNT],

@@ -18,7 +18,7 @@ mod overlap;
 
 pub use change::{Changed, deflections, largest_angular_acceleration};
 pub use mass::centre_of_mass;
-pub use overlap::{Overlaps, hands_apart_m, overlaps};
+pub use overlap::{Overlaps, hands_apart_m, nearest_points, overlaps};
 
 #[cfg(test)]
 mod tests;

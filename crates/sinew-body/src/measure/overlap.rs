@@ -81,8 +81,22 @@ pub fn hands_apart_m(body: &Body, pose: &Pose) -> f64 {
     left.distance(right)
 }
 
-/// Distance between two line segments \[m\] (C. Ericson, *Real-Time Collision Detection*, section 5.1.9).
-pub(super) fn distance([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
+/// Distance between two line segments \[m\].
+pub(super) fn distance(ours: [DVec3; 2], theirs: [DVec3; 2]) -> f64 {
+    let [s, t] = nearest_points(ours, theirs);
+    (ours[0] + (ours[1] - ours[0]) * s).distance(theirs[0] + (theirs[1] - theirs[0]) * t)
+}
+
+/// Where two line segments are nearest: the share of the way along each, from its first point \[1\] (C. Ericson, *Real-Time
+/// Collision Detection*, section 5.1.9).
+///
+/// ```
+/// use glam::DVec3;
+/// use sinew_body::measure::nearest_points;
+/// let across = [DVec3::new(0.5, 1.0, -1.0), DVec3::new(0.5, 1.0, 1.0)];
+/// assert_eq!(nearest_points([DVec3::ZERO, DVec3::X], across), [0.5, 0.5]);
+/// ```
+pub fn nearest_points([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> [f64; 2] {
     let (ours, theirs, between) = (b - a, d - c, a - c);
     let (long, other, mixed) = (ours.length_squared(), theirs.length_squared(), ours.dot(theirs));
     let (along, across) = (ours.dot(between), theirs.dot(between));
@@ -91,5 +105,5 @@ pub(super) fn distance([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     let s = if determinant > 1e-12 { ((mixed * across - along * other) / determinant).clamp(0.0, 1.0) } else { 0.0 };
     let t = if other > 1e-12 { ((mixed * s + across) / other).clamp(0.0, 1.0) } else { 0.0 };
     let s = if long > 1e-12 { ((mixed * t - along) / long).clamp(0.0, 1.0) } else { 0.0 };
-    (a + ours * s).distance(c + theirs * t)
+    [s, t]
 }

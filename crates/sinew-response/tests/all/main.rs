@@ -1,5 +1,6 @@
 //! Everything that `sinew-response` is held to, as one program.
 
+mod claims_arms;
 mod claims_compliance;
 mod claims_input;
 mod claims_legs;

@@ -87,6 +87,13 @@ impl Scene {
         Some(Scene::of_clip(name, &file.clip, &file, at_secs))
     }
 
+    /// The same with other settings.
+    pub fn with(&self, settings: Settings) -> Scene {
+        let prepared = self.prepared.with_settings(settings).unwrap();
+        prepared.motion().stable_settings();
+        Scene { prepared, name: self.name.clone(), body: self.body.clone(), input: self.input.clone(), ..*self }
+    }
+
     pub fn frame_secs(&self) -> f64 {
         self.prepared.clip().frame_time_secs()
     }
