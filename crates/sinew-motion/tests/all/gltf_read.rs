@@ -153,6 +153,51 @@ fn scales_move_into_offsets_and_a_file_without_animation_is_one_frame() {
 }
 
 #[test]
+fn time_before_the_first_key_holds_its_value() {
+    let file = |start: f32| {
+        let times: Vec<f32> = (0..24_u8).map(|frame| start + f32::from(frame) / 30.0).collect();
+        let places: Vec<f32> = (0..24_u8).flat_map(|frame| [f32::from(frame), 1.0, 0.0]).collect();
+        let mut bin = floats(&times);
+        bin.extend(floats(&places));
+        let animation = r#"{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],
+            "samplers":[{"input":0,"output":1}]}"#;
+        let views = r#""bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":288}],
+            "accessors":[{"bufferView":0,"componentType":5126,"count":24,"type":"SCALAR"},
+            {"bufferView":1,"componentType":5126,"count":24,"type":"VEC3"}]"#;
+        parse(&two_joints("", animation, views, &bin)).unwrap().clip
+    };
+    let x = |clip: &sinew_motion::Clip, frame: usize| clip.translation(frame, 0).x;
+    let late = file(1.5);
+    assert_eq!((late.fps(), late.frames()), (30.0, 69), "45 frames are held, then come 24 keys");
+    assert_eq!((x(&late, 0), x(&late, 45)), (0.0, 0.0));
+    // Single-precision keys, 30 frames a second: 1e-5 of a frame.
+    assert!((x(&late, 46) - 1.0).abs() < 1e-4 && (x(&late, 68) - 23.0).abs() < 1e-4);
+    assert_eq!(file(1.0 / 30.0).frames(), 24, "frames counted from 1 are no pause");
+    assert_eq!(file(0.0).frames(), 24);
+}
+
+#[test]
+fn a_body_mirrored_in_all_three_axes_is_exact_and_has_no_note() {
+    let file = |scale: &str| {
+        let json = format!(
+            r#"{{"asset":{{"version":"2.0"}},"skins":[{{"joints":[0,1,2]}}],"nodes":[
+            {{"name":"hips","scale":{scale},"children":[1]}},
+            {{"name":"spine","translation":[0.1,0.5,0],"rotation":[0,0,0.6,0.8],"children":[2]}},
+            {{"name":"head","translation":[0,0.5,0.25]}}]}}"#
+        );
+        parse(json.as_bytes()).unwrap()
+    };
+    let noted = |parsed: &Parsed| parsed.notes.iter().any(|note| note.text.contains("may be off"));
+    let (plain, reflected) = (file("[1,1,1]"), file("[-1,-1,-1]"));
+    assert!(!noted(&reflected), "{:?}", reflected.notes);
+    for (plain, reflected) in plain.clip.world(0).iter().zip(&reflected.clip.world(0)) {
+        // Sums of a few doubles below 1.
+        assert!((plain.translation + reflected.translation).length() < 1e-12);
+    }
+    assert!(noted(&file("[-1,1,1]")), "a mirror in one axis does not commute with rotations");
+}
+
+#[test]
 fn an_animated_scale_is_left_out_and_told() {
     let mut bin = floats(&[0.0, 0.5, 1.0]);
     bin.extend(floats(&[1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 1.0, 1.0, 1.0]));

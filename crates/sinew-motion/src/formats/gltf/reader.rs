@@ -130,6 +130,15 @@ fn name_other_animations(root: &Root, notes: &mut Vec<Note>) {
     )));
 }
 
+/// How many whole frames before the first key hold its value: the time of glTF begins at 0 (glTF 2.0, 3.11).
+///
+/// One frame alone is none: exporters that count frames from 1 put the first key there, and a pause is not meant.
+fn held_frames(start_secs: f64, hz: f64) -> f64 {
+    // A key within a hundredth of a frame is on it: times are single precision.
+    let frames = (start_secs * hz + 0.01).floor();
+    if frames > 1.0 { frames } else { 0.0 }
+}
+
 /// Samples the tracks at the rate of their keys. Returns the clip and the time of its first frame \[s\].
 fn sample(
     mut rig: Rig,
@@ -166,8 +175,13 @@ fn sample(
     if is_still {
         notes.push(Note::new("no animation moves the skeleton: the clip is one frame of its rest pose"));
     }
-    let (start_secs, length_secs) = if is_still { (0.0, 0.0) } else { (start_secs, end_secs - start_secs) };
     let hz = rate_hz(times(), curved).unwrap_or(DEFAULT_HZ);
+    let (start_secs, length_secs) = if is_still {
+        (0.0, 0.0)
+    } else {
+        let start_secs = start_secs - held_frames(start_secs, hz) / hz;
+        (start_secs, end_secs - start_secs)
+    };
     // A last key within a hundredth of a frame is on it; beyond that, one more frame holds the last pose.
     let frames = (length_secs * hz - 0.01).ceil().max(0.0) + 1.0;
     let densest = times().map(<[f64]>::len).max().unwrap_or(1);

@@ -94,7 +94,8 @@ pub(super) fn rig(
         let size = scale_at[index].abs();
         if size.max_element() - size.min_element() > SAME_SCALE * size.max_element() {
             notes.push(Note::new(format!("{} is scaled unevenly, its limbs may be off", joint_name(node, index))));
-        } else if scale_at[index].min_element() < 0.0 {
+        } else if scale_at[index].min_element() < 0.0 && scale_at[index].max_element() > 0.0 {
+            // All three axes negative is a point reflection, which commutes with every rotation: that is exact.
             notes.push(Note::new(format!("{} is mirrored, its limbs may be off", joint_name(node, index))));
         }
         if !members[index] {
