@@ -7,7 +7,8 @@ use sinew_control::perform::{LiveSettings, LiveSource, PerformerSample};
 use sinew_live::raw::RawReader;
 use sinew_live::vmc::VmcReader;
 
-/// Reads a datagram twice, and performs what it says.
+/// Reads a datagram twice, then its pieces between bytes 255 as datagrams, and performs what they say:
+/// the reader learns over several datagrams what belongs to a frame.
 ///
 /// # Panics
 /// If a shown pose has NaN or infinite values.
@@ -17,6 +18,10 @@ pub fn vmc(data: &[u8]) {
     for arrival in [0.0, 0.1] {
         // An error is an answer.
         let _ = reader.datagram(data, arrival, &mut |sample| samples.push(sample));
+    }
+    // Each piece between two marks is a datagram of its own, so that bytes can be a stream of single messages.
+    for (number, piece) in data.split(|&byte| byte == 0xff).take(200).enumerate() {
+        let _ = reader.datagram(piece, 0.2 + number as f64 * 0.01, &mut |sample| samples.push(sample));
     }
     perform(&samples);
 }

@@ -1,5 +1,6 @@
 //! Performers' input and viewers' output of a running scene.
 
+use crate::port_words::PortWords;
 use anyhow::{Context, Result, bail};
 use sinew::control::{Action, Command};
 use sinew::live::{Mirror, Performers};
@@ -34,6 +35,7 @@ pub(crate) struct Live {
     mirrors: Vec<Mirror>,
     below: Vec<Stamped>,
     steps_per_frame: u64,
+    words: PortWords,
 }
 
 impl LiveArguments {
@@ -53,7 +55,8 @@ impl LiveArguments {
             eprintln!("listening for {name} on {address}");
         }
         let mirrors = self.vmc_out.iter().map(|argument| mirror(scene, argument)).collect::<Result<_>>()?;
-        Ok(Live { performers, mirrors, below, steps_per_frame: u64::from(scene.stage.steps_per_frame()) })
+        let steps_per_frame = u64::from(scene.stage.steps_per_frame());
+        Ok(Live { performers, mirrors, below, steps_per_frame, words: PortWords::default() })
     }
 
     fn below(&self, scene: &Scene) -> Result<Vec<Stamped>> {
@@ -119,6 +122,7 @@ impl Observer for Live {
             }
         }
         self.performers.shown();
+        self.words.look(&self.performers);
     }
 
     /// Passes the samples that have arrived and the commands of the underlying take to the next step.

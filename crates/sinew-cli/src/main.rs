@@ -12,6 +12,7 @@ mod live;
 mod number;
 mod output;
 mod perform;
+mod port_words;
 mod progress;
 mod push_argument;
 mod reach;

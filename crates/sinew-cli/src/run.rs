@@ -211,6 +211,9 @@ impl Out {
             lines.extend(character.reaches.iter().map(|reach| format!("{name} reached: {}", reach.words())));
         }
         for (name, actor) in &report.actors {
+            if actor.foreign > 0 {
+                lines.push(format!("{name}: {} datagrams of another performer were dropped", actor.foreign));
+            }
             if actor.received == 0 {
                 lines.push(format!("{name} had no performer"));
                 continue;

@@ -29,6 +29,7 @@ mod performers;
 mod player;
 mod player_error;
 mod port;
+mod port_owner;
 pub mod raw;
 mod raw_player;
 #[cfg(feature = "session")]

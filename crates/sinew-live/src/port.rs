@@ -1,7 +1,8 @@
 //! Ports that receive performers' streams, each on its own thread.
 
+use crate::port_owner::{Admission, PortOwner};
 use crate::raw::RawReader;
-use crate::vmc::{MAX_DATAGRAM_BYTES, VmcReader};
+use crate::vmc::{MAX_DATAGRAM_BYTES, VmcReader, has_body};
 use sinew_control::perform::PerformerSample;
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read};
@@ -13,8 +14,8 @@ use std::time::{Duration, Instant};
 /// Maximum number of samples that wait for the stage; the oldest are dropped.
 const MAX_WAITING: usize = 64;
 
-/// Time for which a port stays reserved for a silent sender.
-const SENDER_TIMEOUT: Duration = Duration::from_secs(2);
+/// Time after which a silent connection is closed.
+const SENDER_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// Interval at which a thread checks whether the port is closed.
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
@@ -32,8 +33,12 @@ pub struct PortError {
 pub struct PortCounters {
     /// Malformed datagrams or lines.
     pub malformed: u64,
-    /// Datagrams from another address than the present sender's.
+    /// Datagrams with bones of another performer than the present one: from another machine, or another program of it.
     pub foreign: u64,
+    /// Datagrams without bones from elsewhere than the performer, such as a face's.
+    pub beside: u64,
+    /// Whether samples have the time of their arrival, because the sender's own clock stands still or is out of range.
+    pub goes_by_arrival: bool,
     /// Samples dropped because the stage did not take them in time.
     pub overflown: u64,
 }
@@ -139,7 +144,7 @@ impl Drop for Port {
 fn receive_vmc(socket: &UdpSocket, shared: &Shared) {
     let began = Instant::now();
     let mut reader = VmcReader::new();
-    let mut owner: Option<(SocketAddr, Instant)> = None;
+    let mut owner = PortOwner::default();
     // One byte more than the maximum, so that a larger datagram is detected.
     let mut bytes = vec![0; MAX_DATAGRAM_BYTES + 1];
     while !shared.ends() {
@@ -152,21 +157,29 @@ fn receive_vmc(socket: &UdpSocket, shared: &Shared) {
             }
         };
         let arrival = Instant::now();
-        match owner {
-            Some((address, last_received)) if address != from => {
-                if arrival.duration_since(last_received) < SENDER_TIMEOUT {
-                    shared.inbox().counters.foreign += 1;
-                    continue;
-                }
-                reader = VmcReader::new();
+        let bytes = &bytes[..length];
+        // Only a sender of valid VMC reserves the port.
+        let Ok(has_body) = has_body(bytes) else {
+            shared.inbox().counters.malformed += 1;
+            continue;
+        };
+        match owner.admit(from, has_body, arrival) {
+            Admission::Read => {}
+            Admission::Begin => reader = VmcReader::new(),
+            Admission::Foreign => {
+                shared.inbox().counters.foreign += 1;
+                continue;
             }
-            _ => {}
+            Admission::Beside => {
+                shared.inbox().counters.beside += 1;
+                continue;
+            }
         }
         let arrival_secs = arrival.duration_since(began).as_secs_f64();
-        match reader.datagram(&bytes[..length], arrival_secs, &mut |sample| shared.push(arrival, sample)) {
-            // Only a sender of valid VMC reserves the port.
-            Ok(()) => owner = Some((from, arrival)),
-            Err(_) => shared.inbox().counters.malformed += 1,
+        // It was valid above.
+        let _ = reader.datagram(bytes, arrival_secs, &mut |sample| shared.push(arrival, sample));
+        if reader.goes_by_arrival() {
+            shared.inbox().counters.goes_by_arrival = true;
         }
     }
 }
@@ -188,7 +201,7 @@ fn receive_stream(mut stream: TcpStream, shared: &Shared, began: Instant) {
     let mut reader = RawReader::new();
     let mut last_received = Instant::now();
     let mut bytes = vec![0; 16 << 10];
-    while !shared.ends() && last_received.elapsed() < 5 * SENDER_TIMEOUT {
+    while !shared.ends() && last_received.elapsed() < SENDER_TIMEOUT {
         match stream.read(&mut bytes) {
             Ok(0) => return,
             Ok(length) => {

@@ -9,10 +9,12 @@ mod axes;
 mod frame;
 mod osc;
 mod reader;
+mod sender_clock;
 
 pub use frame::VmcFrame;
 pub use osc::{MAX_DATAGRAM_BYTES, Malformed};
 pub use reader::VmcReader;
+pub(crate) use reader::has_body;
 
 /// The default port of VMC receivers.
 pub const VMC_PORT: u16 = 39539;

@@ -9,3 +9,4 @@ mod rehearsal;
 mod silence;
 mod suit;
 mod vmc;
+mod vmc_senders;

@@ -27,8 +27,12 @@ pub struct ActorReport {
     pub counters: PerformCounters,
     /// Malformed datagrams or lines.
     pub malformed: u64,
-    /// Datagrams from another sender.
+    /// Datagrams with bones of another performer.
     pub foreign: u64,
+    /// Datagrams without bones from elsewhere than the performer, such as a face's.
+    pub beside: u64,
+    /// Whether samples were timed by their arrival, because the sender's clock stood still or was out of range.
+    pub goes_by_arrival: bool,
     /// Samples dropped because they arrived faster than the stage takes them.
     pub overflown: u64,
 }
@@ -68,6 +72,8 @@ pub(super) fn add_ports(reports: &mut BTreeMap<String, ActorReport>, performers:
         let Some((port, latency)) = performers.of(name) else { continue };
         report.malformed = port.malformed;
         report.foreign = port.foreign;
+        report.beside = port.beside;
+        report.goes_by_arrival = port.goes_by_arrival;
         report.overflown = port.overflown;
         report.received += port.malformed;
         report.rejected += port.malformed;
