@@ -11,9 +11,9 @@ use std::path::PathBuf;
 /// Arguments of `sinew convert`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Convert {
-    /// The motion file to read: .bvh, .amc, .glb, .gltf or .fbx.
+    /// The motion file to read: .bvh, .amc, .glb, .gltf, .vrm, .vrma or .fbx.
     input: PathBuf,
-    /// The motion file to write: .bvh, .amc (with .asf), .glb or .gltf.
+    /// The motion file to write: .bvh, .amc (with .asf), .glb or .gltf; .vrm and .vrma from their own kind.
     output: PathBuf,
     /// Frames per second of the output.
     #[arg(long, value_name = "N")]
@@ -46,9 +46,7 @@ impl Convert {
         };
         output::make_folder(&self.output)?;
         let notes = file.write(&self.output, &clip, &rows, &body).context("nothing was written")?;
-        for note in file.notes.iter().chain(&notes) {
-            eprintln!("note: {note}");
-        }
+        file.notes.iter().chain(&notes).for_each(output::note);
         output::say(&format!(
             "{}: {} joints, {} frames at {:.6} fps",
             self.output.display(),

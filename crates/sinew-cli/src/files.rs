@@ -4,6 +4,7 @@ use crate::{output, video};
 use anyhow::{Context, Result, bail};
 use sinew::jobs::run::{character_clip, character_scene, csv, scene_file};
 use sinew::motion::formats::{Format, WriteJob, write, write_scene};
+use sinew::motion::nearest_name;
 use sinew::picture::Movie;
 use sinew::stage::{OwnRig, RecordedCharacter, Recording};
 use std::path::{Path, PathBuf};
@@ -114,7 +115,7 @@ pub(crate) fn write_recording(
             write(path, &WriteJob { clip: &clip, source: None }, &[])?
         }
     };
-    notes.iter().for_each(|note| eprintln!("note: {note}"));
+    notes.iter().for_each(output::note);
     Ok(())
 }
 
@@ -122,11 +123,17 @@ pub(crate) fn write_recording(
 fn one_of<'a>(recording: &'a Recording, character: Option<&str>, path: &Path) -> Result<&'a RecordedCharacter> {
     let characters = &recording.characters;
     let names: Vec<&str> = characters.iter().map(|character| character.name.as_str()).collect();
+    let find = |same: &dyn Fn(&str) -> bool| characters.iter().find(|character| same(&character.name));
     match (character, &characters[..]) {
-        (Some(name), _) => characters
-            .iter()
-            .find(|character| character.name == name)
-            .with_context(|| format!("no character `{name}`; there are {}", names.join(", "))),
+        (Some(name), _) => {
+            let nearest = || match nearest_name(name, names.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`? "),
+                None => String::new(),
+            };
+            find(&|known| known == name)
+                .or_else(|| find(&|known| known.eq_ignore_ascii_case(name)))
+                .with_context(|| format!("no character `{name}`; {}there are {}", nearest(), names.join(", ")))
+        }
         (None, [one]) => Ok(one),
         (None, []) => bail!("{}: the scene has no character; write .glb or .csv", path.display()),
         (None, _) => bail!(

@@ -1,7 +1,7 @@
 //! The library's messages name fields; whoever types reads the options instead.
 
 /// Fields as the library's messages name them, and the options that set them.
-const OPTIONS: [(&str, &str); 13] = [
+const OPTIONS: [(&str, &str); 16] = [
     ("ReadOptions::unit_m", "--units"),
     ("GroundJob::floor_m", "--floor"),
     ("ReachJob::target", "--target X:Y:Z"),
@@ -10,6 +10,9 @@ const OPTIONS: [(&str, &str); 13] = [
     ("Style::print off", "no --print"),
     ("Excerpt::cycle", "--cycle FIRST..LAST"),
     ("Excerpt::repeat", "--repeat"),
+    ("ReadOptions::animation", "--animation NAME"),
+    ("ReadOptions::person", "--person NAME"),
+    ("ReadOptions::parts", "--part PART=JOINT"),
     ("ReadOptions::skeleton", "--skeleton FILE.asf"),
     ("ServerSettings::name", "--name HOST"),
     ("ServerSettings::bind", "--bind"),

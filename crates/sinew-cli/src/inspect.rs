@@ -1,5 +1,6 @@
 //! `sinew inspect`.
 
+use crate::flag_names::with_options;
 use crate::{Reading, Who, output};
 use anyhow::Result;
 use sinew::jobs::inspect::{Inspection, inspect};
@@ -10,7 +11,7 @@ use std::path::PathBuf;
 /// Arguments of `sinew inspect`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Inspect {
-    /// A motion file: .bvh, .amc, .glb, .gltf or .fbx.
+    /// A motion file: .bvh, .amc, .glb, .gltf, .vrm, .vrma or .fbx.
     file: PathBuf,
     /// Print JSON for programs.
     #[arg(long)]
@@ -45,7 +46,7 @@ fn words(of: &Inspection) -> String {
         of.format, of.frames, of.fps, of.duration_s, of.unit_m
     ));
     if let Some(why) = &of.no_body {
-        line(format_args!("  no human body: {why}"));
+        line(format_args!("  no human body: {}", with_options(why)));
     }
     if let Some(stature) = of.stature_m {
         line(format_args!("  stature {stature:.2} m"));
@@ -57,6 +58,15 @@ fn words(of: &Inspection) -> String {
         (Some((first, last)), Some(secs)) => line(format_args!("  gait cycle: frames {first}..{last}, {secs:.2} s")),
         _ if of.stature_m.is_some() => line(format_args!("  no gait cycle")),
         _ => {}
+    }
+    if of.animations.len() > 1 {
+        line(format_args!("\nanimations ({})", of.animations.len()));
+    }
+    for (index, animation) in of.animations.iter().enumerate().filter(|_| of.animations.len() > 1) {
+        let name = if animation.name.is_empty() { "(no name)" } else { &animation.name };
+        let is_read = if animation.is_read { "  (read)" } else { "" };
+        let (frames, fps) = (animation.frames, animation.fps);
+        line(format_args!("  {:3} {name:28} {frames} frames at {fps:.3} fps{is_read}", index + 1));
     }
     line(format_args!("\njoints ({})", of.joints.len()));
     for joint in &of.joints {
@@ -86,7 +96,7 @@ fn words(of: &Inspection) -> String {
     if !of.notes.is_empty() {
         line(format_args!("\nnotes"));
         for note in &of.notes {
-            line(format_args!("  {note}"));
+            line(format_args!("  {}", with_options(note)));
         }
     }
     text.truncate(text.trim_end().len());

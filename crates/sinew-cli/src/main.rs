@@ -25,12 +25,13 @@ mod video;
 #[cfg(not(feature = "session"))]
 mod without_session;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use number::within;
 use sinew::jobs::ground::GroundError;
 use sinew::jobs::reach::ReachError;
 use sinew::jobs::respond::RespondError;
 use sinew::motion::formats::ReadOptions;
+use sinew::motion::{Part, UnknownPart};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -83,12 +84,34 @@ struct Reading {
     /// The .asf skeleton of an .amc motion, when it is not beside it.
     #[arg(long, value_name = "S.asf")]
     skeleton: Option<PathBuf>,
+    /// Which animation of a .glb, .gltf or .fbx: its name, or its number from 1; otherwise the first with keys.
+    #[arg(long, value_name = "NAME|N")]
+    animation: Option<String>,
+    /// Which of several people: the name of their root joint or armature, or a number from 1; otherwise the first.
+    #[arg(long, value_name = "NAME|N")]
+    person: Option<String>,
+    /// Which joint is a part, such as leftHand=bone_17, before anything is guessed; may be repeated.
+    #[arg(long = "part", value_name = "PART=JOINT", value_parser = part_and_joint)]
+    parts: Vec<(Part, String)>,
 }
 
 impl Reading {
     fn options(&self) -> ReadOptions {
-        ReadOptions { skeleton: self.skeleton.clone(), unit_m: self.units, ..ReadOptions::default() }
+        ReadOptions {
+            skeleton: self.skeleton.clone(),
+            unit_m: self.units,
+            animation: self.animation.clone(),
+            person: self.person.clone(),
+            parts: self.parts.clone(),
+            ..ReadOptions::default()
+        }
     }
+}
+
+fn part_and_joint(text: &str) -> Result<(Part, String), String> {
+    let (part, joint) = text.split_once('=').ok_or("write PART=JOINT, such as leftHand=bone_17")?;
+    let part = part.parse().map_err(|error: UnknownPart| error.to_string())?;
+    Ok((part, joint.trim().to_owned()))
 }
 
 /// The person of the character.
@@ -110,7 +133,8 @@ impl Who {
 
 /// Runs the command: 0 done, 1 failed, 2 wrong usage (clap's own).
 fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let arguments = Arguments::from_arg_matches(&with_negative_numbers(Arguments::command()).get_matches());
+    let result = match arguments.unwrap_or_else(|error| error.exit()).command {
         Command::Inspect(command) => command.run(),
         Command::Convert(command) => command.run(),
         Command::Ground(command) => command.run(),
@@ -135,6 +159,15 @@ fn main() -> ExitCode {
             ExitCode::from(if is_wrong_usage(&error) { 2 } else { 1 })
         }
     }
+}
+
+/// Lets `--compliance -1` reach the message that names the range, in all commands.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let takes_number = |arg: clap::Arg| {
+        let takes_values = arg.get_action().takes_values() && !arg.is_positional();
+        if takes_values { arg.allow_negative_numbers(true) } else { arg }
+    };
+    command.mut_args(takes_number).mut_subcommands(with_negative_numbers)
 }
 
 /// Whether an error is about the arguments, independent of the file.

@@ -97,3 +97,8 @@ pub(crate) fn spinner() -> ProgressBar {
     bar.enable_steady_tick(Duration::from_millis(100));
     bar
 }
+
+/// Prints a note, with options in place of fields.
+pub(crate) fn note(note: &sinew::motion::Note) {
+    eprintln!("note: {}", crate::flag_names::with_options(&note.to_string()));
+}

@@ -20,7 +20,7 @@ pub(crate) struct Reach {
     #[arg(long, value_name = "X:Y:Z", value_parser = point, allow_hyphen_values = true)]
     target: Option<DVec3>,
     /// Which hand reaches.
-    #[arg(long, value_enum, default_value = "auto")]
+    #[arg(long, value_enum, ignore_case = true, default_value = "auto")]
     hand: HandName,
     /// A target of the left hand alone; with --target-right both hands reach.
     #[arg(long, value_name = "X:Y:Z", value_parser = point, allow_hyphen_values = true, conflicts_with_all = ["target", "hand"])]
@@ -92,6 +92,7 @@ impl Reach {
             bail!("--video shows one reach; leave --variations out");
         }
         let clip = clip.map(|path| MotionFile::read(path, &self.reading.options())).transpose()?;
+        clip.iter().flat_map(|file| &file.notes).for_each(output::note);
         let bar = output::spinner();
         bar.set_message("reaching");
         let mut all = Vec::new();

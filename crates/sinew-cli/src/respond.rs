@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `sinew respond`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Respond {
-    /// The clip to push: .bvh, .amc, .glb, .gltf or .fbx. Without one, the sample walk.
+    /// The clip to push: .bvh, .amc, .glb, .gltf, .vrm, .vrma or .fbx. Without one, the sample walk.
     clip: Option<PathBuf>,
     /// A push, such as part=leftHand,force=0:0:-100,at=1.0,for=0.1[,frame=world][,point=x:y:z]; may be repeated.
     /// Newtons and seconds; x to the character's left, y up, z forward.
@@ -125,9 +125,7 @@ impl Respond {
         }
         let notes = write(&files, &file, &answer, &job)?;
         bar.finish_and_clear();
-        for note in file.notes.iter().chain(&answer.notes).chain(&notes) {
-            eprintln!("note: {note}");
-        }
+        file.notes.iter().chain(&answer.notes).chain(&notes).for_each(output::note);
         output::say(&words(&answer, &job, &files))
     }
 

@@ -23,10 +23,11 @@
 //! |---|---|
 //! | `formats` (default) | BVH, ASF/AMC and glTF in and out, FBX in; brings base64, serde, serde_json and ufbx along, which needs a C compiler |
 //!
-//! Brings along fewer than 30 crates; without `formats` eight.
+//! Brings along fewer than 30 crates; without `formats` nine.
 //!
 //! What it does not do: masses, forces, time stepping.
 
+mod choice;
 mod clip;
 mod defects;
 mod error;
@@ -50,6 +51,7 @@ mod transform;
 #[cfg(feature = "formats")]
 pub mod formats;
 
+pub use choice::nearest_name;
 pub use clip::Clip;
 pub use defects::{Defect, DefectKind, find_defects, moves_from};
 pub use error::{Error, Place};
@@ -57,7 +59,7 @@ pub use facing::{facing, facings, heading};
 pub use filter::{DEFAULT_CUTOFF_HZ, LowPass, LowPassStream, PoseStream, filter};
 pub use floor::{Contacts, contacts, floor_height_m};
 pub use gait::{Cycle, find_cycle};
-pub use humanoid::{Humanoid, Origin};
+pub use humanoid::{BodyHints, Humanoid, Origin};
 pub use limits::Limits;
 pub use note::Note;
 pub use part::{Part, Side, UnknownPart};

@@ -1,5 +1,7 @@
 //! Body parts, named as VRM 1.0 humanoid bones.
 
+use crate::choice::nearest_name;
+use crate::humanoid::part_of_name;
 use std::fmt;
 use std::str::FromStr;
 
@@ -84,6 +86,17 @@ impl Part {
     /// Number of parts.
     pub const COUNT: usize = Part::ALL.len();
 
+    /// The part of a VRM 1.0 name, in any case; allocates nothing. [`FromStr`] knows other dialects too.
+    ///
+    /// ```
+    /// # use sinew_motion::Part;
+    /// assert_eq!(Part::named("LeftHand"), Some(Part::LeftHand));
+    /// assert_eq!(Part::named("hand_l"), None);
+    /// ```
+    pub fn named(text: &str) -> Option<Part> {
+        Part::ALL.iter().copied().find(|part| part.name().eq_ignore_ascii_case(text))
+    }
+
     /// Its name in words: `left upper arm`.
     ///
     /// ```
@@ -109,7 +122,7 @@ impl Part {
             Some(Side::Right) => name.replacen("right", "left", 1),
             None => return self,
         };
-        other.parse().unwrap_or(self)
+        Part::named(&other).unwrap_or(self)
     }
 }
 
@@ -121,17 +134,34 @@ impl fmt::Display for Part {
 
 /// An unknown name of a body part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no body part is called {0:?}; parts are the VRM 1.0 bones: hips, spine, chest, head, leftHand, ...")]
-pub struct UnknownPart(String);
+#[error("no body part is called {0:?}; {1}parts are the VRM 1.0 bones: {all}", all = all_names())]
+pub struct UnknownPart(String, String);
 
+fn all_names() -> String {
+    Part::ALL.iter().map(|part| part.name()).collect::<Vec<_>>().join(", ")
+}
+
+/// The one rule for names of parts, wherever they are typed: the VRM 1.0 name in any case, or what a joint of the part is called in
+/// any dialect that Sinew reads (`LeftHand`, `left_hand`, `hand.L`, `mixamorig:LeftHand`, Unreal's `hand_l`). Words that mean
+/// different joints in different dialects are read as Mixamo's: `LeftArm` is the upper arm, `LeftLeg` the lower leg.
+///
+/// ```
+/// use sinew_motion::Part;
+/// for name in ["leftHand", "LEFTHAND", "left_hand", "hand.L", "mixamorig:LeftHand", "hand_l", "Bip01 L Hand"] {
+///     assert_eq!(name.parse(), Ok(Part::LeftHand));
+/// }
+/// assert!("leftHnad".parse::<Part>().unwrap_err().to_string().contains("did you mean `leftHand`"));
+/// ```
 impl FromStr for Part {
     type Err = UnknownPart;
 
     fn from_str(text: &str) -> Result<Part, UnknownPart> {
-        Part::ALL
-            .iter()
-            .copied()
-            .find(|part| part.name().eq_ignore_ascii_case(text))
-            .ok_or_else(|| UnknownPart(text.to_owned()))
+        let text = text.trim();
+        Part::named(text).or_else(|| part_of_name(text)).ok_or_else(|| {
+            let near = nearest_name(text, Part::ALL.iter().map(|part| part.name()));
+            let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+            // What comes from a file may be long.
+            UnknownPart(text.chars().take(60).collect(), near)
+        })
     }
 }

@@ -282,7 +282,7 @@ fn placed(args: &[OscType]) -> (DVec3, DQuat) {
 /// The part that a bone message is about; `None` for fingers and eyes, which are not among our parts.
 fn part_of(args: &[OscType]) -> Option<Part> {
     match args.first() {
-        Some(OscType::String(name)) => name.parse().ok(),
+        Some(OscType::String(name)) => Part::named(name),
         _ => None,
     }
 }

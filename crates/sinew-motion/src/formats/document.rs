@@ -1,5 +1,6 @@
 //! What a reader returns, and what a writer takes.
 
+use super::Contents;
 use super::amc::AmcDocument;
 use super::bvh::BvhDocument;
 use crate::{Clip, Note, SourceSpace};
@@ -17,6 +18,10 @@ pub enum Format {
     Gltf,
     /// glTF 2.0 in one binary file, `.glb`.
     Glb,
+    /// VRM, a character in a binary glTF, `.vrm` (read, and written again).
+    Vrm,
+    /// VRM Animation, a motion in a binary glTF, `.vrma` (read, and written again).
+    Vrma,
     /// Autodesk FBX, `.fbx` (read only).
     Fbx,
 }
@@ -30,6 +35,8 @@ impl Format {
             "amc" | "asf" => Some(Format::Amc),
             "gltf" => Some(Format::Gltf),
             "glb" => Some(Format::Glb),
+            "vrm" => Some(Format::Vrm),
+            "vrma" => Some(Format::Vrma),
             "fbx" => Some(Format::Fbx),
             _ => None,
         }
@@ -43,6 +50,8 @@ impl fmt::Display for Format {
             Format::Amc => "amc",
             Format::Gltf => "gltf",
             Format::Glb => "glb",
+            Format::Vrm => "vrm",
+            Format::Vrma => "vrma",
             Format::Fbx => "fbx",
         })
     }
@@ -59,6 +68,8 @@ pub struct Parsed {
     pub world_from_source: Option<glam::DQuat>,
     /// The file, kept for writing it again.
     pub document: Document,
+    /// What else is in the file.
+    pub contents: Contents,
     /// What was guessed, repaired or lost.
     pub notes: Vec<Note>,
 }
@@ -73,7 +84,7 @@ pub enum Document {
     Bvh(Box<BvhDocument>),
     /// An AMC file with its ASF skeleton.
     Amc(Box<AmcDocument>),
-    /// A glTF file: its meshes, materials and other nodes stay, its first animation is replaced.
+    /// A glTF file: its meshes, materials and other nodes stay, the animation that was read is replaced.
     Gltf(Box<super::gltf::GltfDocument>),
 }
 

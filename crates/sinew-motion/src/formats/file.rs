@@ -1,7 +1,8 @@
 //! A motion file of any format, in metres and Y up, with its body parts found.
 
-use super::{BodyShape, Document, Format, Parsed, SceneFile, Source, WriteJob, amc, bvh, fbx, gltf};
-use crate::{Clip, Error, Humanoid, Limits, Note, Part, Place, SourceSpace, guess_space, stature};
+use super::{AnimationInfo, BodyShape, Document, Format, Parsed, SceneFile, Source, WriteJob, amc, bvh, fbx, gltf};
+use crate::choice::listed;
+use crate::{BodyHints, Clip, Error, Humanoid, Limits, Note, Part, Place, SourceSpace, guess_space, stature};
 use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -16,6 +17,11 @@ pub struct ReadOptions {
     pub skeleton: Option<PathBuf>,
     /// Length of one file unit \[m\]; otherwise what the file states, or a guess by stature.
     pub unit_m: Option<f64>,
+    /// The animation to read, by name or by number from 1; otherwise the first one with keys of the skeleton. Only glTF and
+    /// FBX hold several.
+    pub animation: Option<String>,
+    /// The person to take, by the name of their root joint or armature or by number from 1; otherwise the first one.
+    pub person: Option<String>,
     /// Joints that are given parts, before anything is guessed.
     pub parts: Vec<(Part, String)>,
     /// Limits of the reader.
@@ -37,6 +43,8 @@ pub struct MotionFile {
     pub humanoid: Result<Humanoid, Error>,
     /// Standing height of the body \[m\]; 0 if it is not a human body.
     pub stature_m: f64,
+    /// All animations of the file; empty for formats that hold one without a name (BVH, AMC).
+    pub animations: Vec<AnimationInfo>,
     /// What was guessed, repaired or lost.
     pub notes: Vec<Note>,
     document: Document,
@@ -57,11 +65,11 @@ impl MotionFile {
     /// error: see [`MotionFile::humanoid`].
     pub fn read(path: &Path, options: &ReadOptions) -> Result<MotionFile, Error> {
         let format = format_of(path)?;
-        let limits = &options.limits;
+        let (limits, animation) = (&options.limits, options.animation.as_deref());
         let parsed = match format {
             Format::Bvh => bvh::read(&bytes_of(path, limits)?, limits),
-            Format::Fbx => fbx::read(&bytes_of(path, limits)?, limits),
-            Format::Gltf | Format::Glb => gltf::read(path, limits),
+            Format::Fbx => fbx::read_chosen(&bytes_of(path, limits)?, animation, limits),
+            Format::Gltf | Format::Glb | Format::Vrm | Format::Vrma => gltf::read_chosen(path, animation, limits),
             Format::Amc if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("asf")) => {
                 amc::read_rest(&bytes_of(path, limits)?, limits)
             }
@@ -90,11 +98,13 @@ impl MotionFile {
     /// As [`MotionFile::read`].
     pub fn from_bytes(name: &Path, bytes: &[u8], options: &ReadOptions) -> Result<MotionFile, Error> {
         let format = format_of(name)?;
-        let limits = &options.limits;
+        let (limits, animation) = (&options.limits, options.animation.as_deref());
         let parsed = match format {
             Format::Bvh => bvh::read(bytes, limits),
-            Format::Fbx => fbx::read(bytes, limits),
-            Format::Gltf | Format::Glb => gltf::read_slice(bytes, None, limits),
+            Format::Fbx => fbx::read_chosen(bytes, animation, limits),
+            Format::Gltf | Format::Glb | Format::Vrm | Format::Vrma => {
+                gltf::read_slice_chosen(bytes, None, animation, limits)
+            }
             Format::Amc => {
                 let problem = "the skeleton of an AMC is in another file";
                 Err(Error::new(Place::File, problem, "convert it with `sinew convert` to .bvh or .glb"))
@@ -111,13 +121,24 @@ impl MotionFile {
             let problem = format!("a unit of {unit_m:e} m is out of range");
             return Err(Error::new(Place::File, problem, "give metres per file unit, such as 0.01").in_file(&path));
         }
+        if options.animation.is_some() && parsed.contents.animations.is_empty() {
+            let problem = format!("it has no animations to choose from, as a {format} holds one motion");
+            return Err(Error::new(Place::File, problem, "leave ReadOptions::animation out").in_file(&path));
+        }
         let unit_m = options.unit_m.or(parsed.unit_m);
-        let humanoid = Humanoid::of(&parsed.clip, &options.parts).map_err(|error| error.in_file(&path));
-        if let (Err(error), false) = (&humanoid, options.parts.is_empty()) {
-            // Who names parts means a body.
+        let hints = BodyHints {
+            parts: options.parts.clone(),
+            person: options.person.clone(),
+            stated: parsed.contents.parts,
+            armatures: parsed.contents.armatures,
+        };
+        let humanoid = Humanoid::with(&parsed.clip, &hints).map_err(|error| error.in_file(&path));
+        if let (Err(error), true) = (&humanoid, options.person.is_some() || !options.parts.is_empty()) {
+            // Who names parts or a person means a body.
             return Err(error.clone());
         }
         let mut notes = parsed.notes;
+        notes.extend(other_animations(&parsed.contents.animations));
         let (space, clip, stature_m) = match &humanoid {
             Ok(humanoid) => {
                 let guess = guess_space(&parsed.clip, humanoid, unit_m, parsed.world_from_source);
@@ -138,7 +159,8 @@ impl MotionFile {
             let problem = format!("frame {frame}, joint {joint:?}: not a number once in metres");
             return Err(Error::new(Place::File, problem, "check the values and the unit").in_file(&path));
         }
-        Ok(MotionFile { path, format, clip, space, humanoid, stature_m, notes, document: parsed.document })
+        let animations = parsed.contents.animations;
+        Ok(MotionFile { path, format, clip, space, humanoid, stature_m, animations, notes, document: parsed.document })
     }
 
     /// The human body in the file.
@@ -161,6 +183,18 @@ impl MotionFile {
         let source = Source { document: &self.document, clip: &self.clip, space: self.space, rows };
         write(path, &WriteJob { clip, source: Some(source) }, body)
     }
+}
+
+/// A note of those that are not read.
+fn other_animations(all: &[AnimationInfo]) -> Option<Note> {
+    let read = all.iter().position(|animation| animation.is_read).filter(|_| all.len() > 1)?;
+    Some(Note::new(format!(
+        "{} animations: number {}, {:?}, is read, of {}; ReadOptions::animation chooses another",
+        all.len(),
+        read + 1,
+        all[read].shown(),
+        listed(all.iter().map(AnimationInfo::shown))
+    )))
 }
 
 /// Writes a motion to a file of the format that its extension names, see [`MotionFile::write`]. An `.amc` made anew gets its
@@ -199,7 +233,7 @@ pub fn write(path: &Path, job: &WriteJob, body: &[BodyShape]) -> Result<Vec<Note
             }
             written
         }
-        format @ (Format::Gltf | Format::Glb) => gltf::write(&mut bytes, job, format, body),
+        format @ (Format::Gltf | Format::Glb | Format::Vrm | Format::Vrma) => gltf::write(&mut bytes, job, format, body),
         Format::Fbx => Err(Error::new(
             Place::File,
             "FBX can be read but not written",
@@ -232,7 +266,8 @@ fn format_of(path: &Path) -> Result<Format, Error> {
             Some(extension) => format!("unknown format .{}", extension.display()),
             None => "no extension tells its format".to_owned(),
         };
-        Error::new(Place::File, problem, "use .bvh, .amc (with .asf), .glb, .gltf, or .fbx (read only)").in_file(path)
+        Error::new(Place::File, problem, "use .bvh, .amc (with .asf), .glb, .gltf, .vrm, .vrma, or .fbx (read only)")
+            .in_file(path)
     })
 }
 

@@ -6,6 +6,7 @@
 pub mod amc;
 mod body_shape;
 pub mod bvh;
+mod contents;
 mod document;
 pub mod fbx;
 mod file;
@@ -15,6 +16,7 @@ mod scene_file;
 mod text;
 
 pub use body_shape::BodyShape;
+pub use contents::{AnimationInfo, Contents};
 pub use document::{Document, Format, Parsed, Source, WriteJob};
 pub use file::{MotionFile, ReadOptions, bytes_of, write, write_scene, write_whole};
 pub use scene_file::{JointShape, SceneCharacter, SceneFile, SceneForm, SceneMaterial, SceneThing};

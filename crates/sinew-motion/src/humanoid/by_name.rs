@@ -3,6 +3,7 @@
 use super::Origin;
 use super::draft::Draft;
 use super::names::{Kind, Name};
+use super::people::Scope;
 use crate::{Part, Side, Skeleton};
 
 pub(super) const SIDES: [Side; 2] = [Side::Left, Side::Right];
@@ -15,13 +16,18 @@ pub(super) struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    pub fn new(skeleton: &'a Skeleton) -> Names<'a> {
-        let texts: Vec<&str> = skeleton.joints().iter().map(|joint| joint.name.as_str()).collect();
-        let mut depths: Vec<usize> = Vec::with_capacity(texts.len());
-        for joint in skeleton.joints() {
+    /// Of the joints of a scope alone: names of others mean nothing.
+    pub fn new(skeleton: &'a Skeleton, scope: &Scope) -> Names<'a> {
+        let joints = skeleton.joints();
+        let inside: Vec<usize> = (0..joints.len()).filter(|&joint| scope.holds(joint)).collect();
+        let texts: Vec<&str> = inside.iter().map(|&joint| joints[joint].name.as_str()).collect();
+        let mut depths: Vec<usize> = Vec::with_capacity(joints.len());
+        for joint in joints {
             depths.push(joint.parent.map_or(0, |parent| depths[parent] + 1));
         }
-        Names { skeleton, names: super::names::read(&texts), depths }
+        let mut names = vec![Name { side: None, kind: None }; joints.len()];
+        inside.into_iter().zip(super::names::read(&texts)).for_each(|(joint, name)| names[joint] = name);
+        Names { skeleton, names, depths }
     }
 
     pub fn name(&self, joint: usize) -> &Name {
@@ -75,6 +81,15 @@ fn offer_arm(draft: &mut Draft, names: &Names, side: Side) {
         [(Part::LeftShoulder, collar), (Part::LeftUpperArm, upper), (Part::LeftLowerArm, lower), (Part::LeftHand, hand)]
     {
         draft.offer(Draft::sided(part, side), joint, Origin::Name);
+    }
+}
+
+/// Offers an arm or a leg without a joint below it as its upper part: for messages on what is missing.
+pub(super) fn offer_stumps(draft: &mut Draft, names: &Names) {
+    for side in SIDES {
+        for (kind, part) in [(Kind::Arm, Part::LeftUpperArm), (Kind::Leg, Part::LeftUpperLeg)] {
+            draft.offer(Draft::sided(part, side), names.first(kind, Some(side)), Origin::Name);
+        }
     }
 }
 

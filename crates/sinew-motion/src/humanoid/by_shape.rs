@@ -4,7 +4,10 @@
 //! at the chest two more beside the neck. Names or the direction of the toes decide which of two equal chains is the
 //! left one.
 
+use super::by_name::Names;
 use super::draft::{common_ancestor, path};
+use super::names::Kind;
+use super::people::Scope;
 use crate::{Clip, Skeleton};
 use glam::DVec3;
 
@@ -144,17 +147,18 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Finds the body, or says what is missing for one.
-pub(super) fn find(clip: &Clip) -> Result<Shape, String> {
+/// Finds the body among the joints of a scope, or says what is missing for one.
+pub(super) fn find(clip: &Clip, scope: &Scope, names: &Names) -> Result<Shape, String> {
     let tree = Tree::new(clip);
     let skeleton = clip.skeleton();
-    let scale = (0..skeleton.len()).map(|joint| tree.reach[joint]).fold(0.0, f64::max);
-    let mut pairs: Vec<Pair> = (0..skeleton.len()).filter_map(|at| tree.pair(at, scale)).collect();
+    let inside = || (0..skeleton.len()).filter(|&joint| scope.holds(joint));
+    let scale = inside().map(|joint| tree.reach[joint]).fold(0.0, f64::max);
+    let mut pairs: Vec<Pair> = inside().filter_map(|at| tree.pair(at, scale)).collect();
     if pairs.len() < 2 {
         let found = if pairs.is_empty() { "no pair" } else { "only one pair" };
         return Err(format!(
             "it has {} joints and {found} of equal limbs, where a body has two legs and two arms",
-            skeleton.len()
+            inside().count()
         ));
     }
     let bones = |pair: &Pair| pair.limbs.iter().flat_map(|limb| limb.lengths).sum::<f64>();
@@ -200,8 +204,10 @@ pub(super) fn find(clip: &Clip) -> Result<Shape, String> {
     let (neck, head) = match neck {
         None => (None, None),
         Some(first) => {
-            // A head carries eyes and a jaw: it is the first joint that branches, or the last of the chain.
-            let chain = tree.chain(first);
+            // A head carries eyes and a jaw: it is the first joint that branches, or the last of the chain that is no face.
+            let mut chain = tree.chain(first);
+            let faces = chain.iter().position(|&joint| names.kind(joint) == Some(Kind::Other));
+            chain.truncate(faces.unwrap_or(chain.len()).max(1));
             let head = chain.iter().copied().find(|&joint| tree.children[joint].len() > 1).or(chain.last().copied());
             (Some(first).filter(|&first| head != Some(first)), head)
         }

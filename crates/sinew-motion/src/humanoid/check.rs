@@ -1,6 +1,6 @@
 //! Checks whether a mapping is a complete human body.
 
-use super::by_name::{Names, SIDES};
+use super::by_name::{self, Names, SIDES};
 use super::draft::Draft;
 use super::names::Kind;
 use crate::pose::sample_poses;
@@ -17,7 +17,7 @@ const CHAINS: [&[Part]; 4] = [
 const LIMBS: [Part; 5] =
     [Part::LeftUpperArm, Part::LeftLowerArm, Part::LeftUpperLeg, Part::LeftLowerLeg, Part::LeftFoot];
 
-const REMEDY: &str = "name the joints of the parts yourself, or give a file with a human skeleton";
+const REMEDY: &str = "name the joints of the parts in ReadOptions::parts, or give a file with a human skeleton";
 
 /// An error about the skeleton, with the joints that it has.
 pub(super) fn error(problem: String, skeleton: &Skeleton) -> Error {
@@ -29,9 +29,11 @@ pub(super) fn error(problem: String, skeleton: &Skeleton) -> Error {
 }
 
 /// Why neither names nor shape give a body.
-pub(super) fn refusal(draft: &Draft, clip: &Clip, why: &str) -> Error {
+pub(super) fn refusal(draft: &Draft, names: &Names, clip: &Clip, why: &str) -> Error {
     let skeleton = clip.skeleton();
-    let problem = match limbs(draft, skeleton) {
+    let mut draft = draft.clone();
+    by_name::offer_stumps(&mut draft, names);
+    let problem = match limbs(&draft, skeleton) {
         Err(problem) if Part::ALL.iter().any(|&part| draft.joint(part).is_some()) => {
             format!("{problem}, and by shape {why}")
         }
@@ -53,7 +55,13 @@ pub(super) fn joint_names(skeleton: &Skeleton) -> String {
 /// Whether limbs and head are complete and hang together; `Err` says what is missing or wrong.
 pub(super) fn limbs(draft: &Draft, skeleton: &Skeleton) -> Result<(), String> {
     let sided = LIMBS.iter().flat_map(|&part| [part, part.mirrored()]);
-    let missing: Vec<&str> = sided.filter(|&part| draft.joint(part).is_none()).map(Part::name).collect();
+    let mut missing: Vec<&str> = sided.filter(|&part| draft.joint(part).is_none()).map(Part::name).collect();
+    for (arm, hand) in [Part::LeftLowerArm, Part::RightLowerArm].into_iter().zip([Part::LeftHand, Part::RightHand]) {
+        // A body may be without hands; an arm that ends above them lacks them too.
+        if draft.joint(arm).is_none() && draft.joint(hand).is_none() {
+            missing.push(hand.name());
+        }
+    }
     if !missing.is_empty() {
         return Err(format!("no joint was found for {}", missing.join(", ")));
     }

@@ -1,28 +1,49 @@
 //! Which joint is which part of a human body.
 //!
 //! Names come first ([`names`], [`by_name`]); what they leave open is found by the shape of the tree ([`by_shape`]);
-//! the trunk is always found by what hangs from it ([`trunk`]); and in the end everything is checked ([`check`]).
+//! the trunk is always found by what hangs from it ([`trunk`]); and in the end everything is checked ([`check`]). Where there
+//! are several people, all this looks at the joints of one ([`people`]).
 
 mod by_name;
 mod by_shape;
 mod check;
 mod draft;
 mod names;
+mod people;
 mod sides;
 mod trunk;
 
 use crate::{Clip, Error, Note, Part, Place, Side};
 use draft::Draft;
+pub(crate) use names::part_of_name;
+pub(crate) use people::LEAST_JOINTS;
+use people::Scope;
 
 /// How a part was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// The user named the joint.
     Override,
+    /// The file says so: `humanBones` of VRM.
+    Stated,
     /// The joint's name says so, in a dialect that Sinew knows.
     Name,
     /// Guessed from the shape of the tree: where limbs branch, how long bones are.
     Shape,
+}
+
+/// What is known of a body before it is looked for.
+#[derive(Clone, Debug, Default)]
+pub struct BodyHints {
+    /// Joints that the user names for parts.
+    pub parts: Vec<(Part, String)>,
+    /// Which of several people: the name of their root joint or armature, or a number from 1 in the order of the joints. Without
+    /// it the first.
+    pub person: Option<String>,
+    /// Parts as the file states them.
+    pub stated: Vec<(Part, usize)>,
+    /// Names of what stands above a root joint without being a joint.
+    pub armatures: Vec<(usize, String)>,
 }
 
 /// A map from body parts to the joints of a skeleton, complete enough for a body: hips, chest, head or neck, and on both
@@ -80,13 +101,32 @@ impl Humanoid {
     /// The skeleton is not a human body, or its parts cannot be identified: the error says which part is missing or
     /// what contradicts a body, and lists the joints to choose from.
     pub fn of(clip: &Clip, overrides: &[(Part, String)]) -> Result<Humanoid, Error> {
+        Humanoid::with(clip, &BodyHints { parts: overrides.to_vec(), ..BodyHints::default() })
+    }
+
+    /// The same, with all that may be known of the body before. What the user names comes before what the file states, and that
+    /// before names and shape.
+    ///
+    /// # Errors
+    /// As [`Humanoid::of`]; also, no person is called so.
+    pub fn with(clip: &Clip, hints: &BodyHints) -> Result<Humanoid, Error> {
+        let (scope, note) = people::choose(clip, hints)?;
+        let mut humanoid = Humanoid::in_scope(clip, hints, &scope)?;
+        humanoid.notes.splice(0..0, note);
+        humanoid.notes.extend(sides::doubt(&humanoid, clip));
+        Ok(humanoid)
+    }
+
+    fn in_scope(clip: &Clip, hints: &BodyHints, scope: &Scope) -> Result<Humanoid, Error> {
         let skeleton = clip.skeleton();
-        let names = by_name::Names::new(skeleton);
+        let names = by_name::Names::new(skeleton, scope);
         let mut notes = Vec::new();
-        let mut draft = overridden(clip, overrides)?;
+        let mut draft = overridden(clip, &hints.parts, scope)?;
+        hints.stated.iter().for_each(|&(part, joint)| draft.offer(part, Some(joint), Origin::Stated));
         by_name::offer(&mut draft, &names);
         if check::limbs(&draft, skeleton).is_err() {
-            let shape = by_shape::find(clip).map_err(|why| check::refusal(&draft, clip, &why))?;
+            let shape =
+                by_shape::find(clip, scope, &names).map_err(|why| check::refusal(&draft, &names, clip, &why))?;
             sides::offer(&mut draft, clip, &names, &shape, &mut notes)?;
         }
         let trunk = trunk::find(&mut draft, skeleton, &names)?;
@@ -95,10 +135,8 @@ impl Humanoid {
         let parts: Vec<Option<(usize, Origin)>> =
             Part::ALL.iter().map(|&part| draft.joint(part).zip(draft.origin(part))).collect();
         let unmapped = (0..skeleton.len()).filter(|&joint| draft.part_of(joint).is_none()).collect();
-        let mut humanoid =
-            Humanoid { parts, unmapped, spine_chain: trunk.spine_chain, neck_chain: trunk.neck_chain, notes };
-        humanoid.notes.extend(sides::doubt(&humanoid, clip));
-        Ok(humanoid)
+        let (spine_chain, neck_chain) = (trunk.spine_chain, trunk.neck_chain);
+        Ok(Humanoid { parts, unmapped, spine_chain, neck_chain, notes })
     }
 
     /// The joint of a part, `None` where the skeleton has none.
@@ -182,10 +220,12 @@ impl Humanoid {
     }
 }
 
-fn overridden(clip: &Clip, overrides: &[(Part, String)]) -> Result<Draft, Error> {
+fn overridden(clip: &Clip, overrides: &[(Part, String)], scope: &Scope) -> Result<Draft, Error> {
     let mut draft = Draft::new();
+    let joints = clip.skeleton().joints();
     for (part, name) in overrides {
-        let Some(joint) = clip.skeleton().find(name) else {
+        let is_called = |joint: &usize| joints[*joint].name == *name && scope.holds(*joint);
+        let Some(joint) = (0..joints.len()).find(is_called) else {
             return Err(Error::new(
                 Place::File,
                 format!("no joint is called {name:?}, which was given for {part}"),

@@ -4,7 +4,7 @@
 //! meaning of the rest. Ambiguous names, which mean different parts in different dialects (`LeftShoulder`, `LeftLeg`,
 //! `LeftHip`), have their own kind here; [`super::by_name`] decides by their neighbours.
 
-use crate::Side;
+use crate::{Part, Side};
 use std::collections::BTreeMap;
 
 /// What the stem of a joint's name means.
@@ -115,6 +115,10 @@ const STEMS: &[(Kind, &[&str])] = &[
             "pinky",
             "eye",
             "jaw",
+            "face",
+            "headtop",
+            "headend",
+            "headnub",
         ],
     ),
 ];
@@ -142,7 +146,14 @@ const HELPERS: &[&str] = &[
     "breast",
     "eye",
     "ear",
+    "face",
+    "facial",
+    "cheek",
+    "chin",
+    "eyelid",
+    "forehead",
     "jaw",
+    "mouth",
     "brow",
     "tongue",
     "teeth",
@@ -203,6 +214,87 @@ const PREFIXES: &[&str] = &[
 /// Suffixes without meaning for the body.
 const SUFFIXES: &[&str] = &["joint", "jnt", "bone", "bind", "base", "jt", "skin"];
 
+/// The signs for left and right in Chinese and Japanese.
+const SIGNS: [char; 2] = ['左', '右'];
+
+/// Words for left: English, German, Dutch, French, Spanish, Portuguese, Italian, Scandinavian, Finnish, Polish, Russian,
+/// Japanese, Chinese, Korean. Words that mean something else too (French `droit`, Spanish `der`) count as words of their own only.
+const LEFT: &[&str] = &[
+    "l",
+    "left",
+    "lft",
+    "links",
+    "linke",
+    "linker",
+    "linkes",
+    "linken",
+    "gauche",
+    "izq",
+    "izquierda",
+    "izquierdo",
+    "esquerda",
+    "esquerdo",
+    "esq",
+    "sinistra",
+    "sinistro",
+    "sx",
+    "vänster",
+    "vänstra",
+    "venstre",
+    "vasen",
+    "lewy",
+    "lewa",
+    "lewe",
+    "левый",
+    "левая",
+    "левое",
+    "левой",
+    "лев",
+    "hidari",
+    "左",
+    "왼",
+    "왼쪽",
+];
+
+/// The same words for right.
+const RIGHT: &[&str] = &[
+    "r",
+    "right",
+    "rgt",
+    "rechts",
+    "rechte",
+    "rechter",
+    "rechtes",
+    "rechten",
+    "droite",
+    "droit",
+    "der",
+    "derecha",
+    "derecho",
+    "direita",
+    "direito",
+    "destra",
+    "destro",
+    "dx",
+    "höger",
+    "högra",
+    "høyre",
+    "højre",
+    "oikea",
+    "prawy",
+    "prawa",
+    "prawe",
+    "правый",
+    "правая",
+    "правое",
+    "правой",
+    "прав",
+    "migi",
+    "右",
+    "오른",
+    "오른쪽",
+];
+
 /// A parsed joint name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Name {
@@ -241,6 +333,12 @@ fn split(name: &str) -> Vec<String> {
         if letter.is_alphabetic() {
             word.extend(letter.to_lowercase());
         }
+        // Chinese and Japanese write no spaces: the sign for a side is a word of its own.
+        if word.ends_with(SIGNS) {
+            let sign = word.pop();
+            words.extend((!word.is_empty()).then(|| std::mem::take(&mut word)));
+            words.extend(sign.map(String::from));
+        }
     }
     if !word.is_empty() {
         words.push(word);
@@ -266,6 +364,7 @@ fn understand(words: &[String], shared: Option<&str>) -> Name {
         let kind = kind_of(&words.concat()).unwrap_or(Kind::Other);
         return Name { side, kind: Some(kind) };
     }
+    side = side.or_else(|| words.iter().find_map(|word| side_at_end(word)));
     let mut kind = kind_of(&words.concat());
     while kind.is_none() && words.len() > 1 && words.last().is_some_and(|word| SUFFIXES.contains(word)) {
         words.pop();
@@ -285,9 +384,69 @@ fn understand(words: &[String], shared: Option<&str>) -> Name {
 }
 
 fn side_word(word: &str) -> Option<Side> {
-    match word {
-        "l" | "left" | "lft" => Some(Side::Left),
-        "r" | "right" | "rgt" => Some(Side::Right),
+    let is_one_of = |words: &[&str]| words.contains(&word);
+    if is_one_of(LEFT) {
+        Some(Side::Left)
+    } else if is_one_of(RIGHT) {
+        Some(Side::Right)
+    } else {
+        None
+    }
+}
+
+/// The side of a word with the word for a side stuck to it: `armlinks`, `왼팔`. Short ones would be found in other words.
+fn side_at_end(word: &str) -> Option<Side> {
+    const LETTERS: usize = 6;
+    let has = |sides: &[&str], short: &str| {
+        let long = sides.iter().copied().filter(|side| side.chars().count() >= LETTERS || !side.is_ascii());
+        long.chain([short]).any(|side| word.starts_with(side) || word.ends_with(side))
+    };
+    match (has(LEFT, "links"), has(RIGHT, "rechts")) {
+        (true, false) => Some(Side::Left),
+        (false, true) => Some(Side::Right),
+        _ => None,
+    }
+}
+
+/// The part that a name means in any dialect, as [`Part`](crate::Part) reads it: an arm is an upper arm and a leg a lower leg, as
+/// Mixamo has them.
+pub(crate) fn part_of_name(text: &str) -> Option<Part> {
+    // A long text is no name.
+    let text = text.get(..MOST_BYTES).map_or(text, |_| "");
+    let name = understand(&split(text), None);
+    let left = match (name.kind?, name.side) {
+        (Kind::Trunk, None) => return trunk_of_name(text),
+        (Kind::Hips, None) => return Some(Part::Hips),
+        (Kind::UpperChest, None) => return Some(Part::UpperChest),
+        (Kind::Neck, None) => return Some(Part::Neck),
+        (Kind::Head, None) => return Some(Part::Head),
+        (_, None) => return None,
+        (Kind::Collar | Kind::Shoulder, _) => Part::LeftShoulder,
+        (Kind::UpperArm | Kind::Arm, _) => Part::LeftUpperArm,
+        (Kind::LowerArm, _) => Part::LeftLowerArm,
+        (Kind::Hand | Kind::Wrist, _) => Part::LeftHand,
+        (Kind::UpperLeg, _) => Part::LeftUpperLeg,
+        (Kind::LowerLeg | Kind::Leg, _) => Part::LeftLowerLeg,
+        (Kind::Foot | Kind::Ankle, _) => Part::LeftFoot,
+        (Kind::Toes, _) => Part::LeftToes,
+        _ => return None,
+    };
+    Some(if name.side == Some(Side::Left) { left } else { left.mirrored() })
+}
+
+/// Longest name of a part in bytes.
+const MOST_BYTES: usize = 64;
+
+/// `Spine`, `Spine1`, `Spine2` of Mixamo and `spine_01` to `spine_03` of Unreal, from below; and the chest.
+fn trunk_of_name(text: &str) -> Option<Part> {
+    let text = text.to_lowercase();
+    let text = text.rsplit([':', '|']).next()?;
+    let digits = text.trim_start_matches(|letter: char| !letter.is_ascii_digit());
+    let stem: String = text[..text.len() - digits.len()].chars().filter(char::is_ascii_lowercase).collect();
+    match (stem.as_str(), digits) {
+        ("spine", "" | "01" | "001") => Some(Part::Spine),
+        ("spine", "1" | "02" | "002") | ("chest", "") => Some(Part::Chest),
+        ("spine", "2" | "03" | "003") => Some(Part::UpperChest),
         _ => None,
     }
 }

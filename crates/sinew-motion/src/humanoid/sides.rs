@@ -17,16 +17,27 @@ pub(super) fn offer(
     notes: &mut Vec<Note>,
 ) -> Result<(), Error> {
     let poses = sample_poses(clip, 64);
-    let left_first = |pair: &[Limb; 2], draft: &Draft| -> Option<bool> {
-        named_left_first(pair, names, draft).or_else(|| seen_left_first(clip, shape, &poses, pair))
-    };
-    for (pair, parts) in [
+    let named = [&shape.legs, &shape.arms].map(|pair| named_left_first(pair, names, draft));
+    let mut seen_by = None;
+    for ((pair, parts), (named, other)) in [
         (&shape.legs, [Part::LeftUpperLeg, Part::LeftLowerLeg, Part::LeftFoot, Part::LeftToes]),
         (&shape.arms, [Part::LeftUpperArm, Part::LeftLowerArm, Part::LeftHand, Part::LeftShoulder]),
-    ] {
-        let Some(left_first) = left_first(pair, draft) else {
+    ]
+    .into_iter()
+    .zip([
+        (named[0], named[1].map(|left_first| (&shape.arms, left_first))),
+        (named[1], named[0].map(|left_first| (&shape.legs, left_first))),
+    ]) {
+        let beside = || other.map(|other| beside_left_first(&poses, pair, other));
+        let mut seen = || {
+            let (left_first, by) = seen_left_first(clip, shape, &poses, pair)?;
+            seen_by = Some(by);
+            Some(left_first)
+        };
+        let Some(left_first) = named.or_else(beside).or_else(&mut seen) else {
             return Err(check::error(
-                "left and right cannot be distinguished: it has no toes and does not travel".to_owned(),
+                "left and right cannot be distinguished: its names have no sides, it has no toes and does not travel"
+                    .to_owned(),
                 clip.skeleton(),
             ));
         };
@@ -41,6 +52,13 @@ pub(super) fn offer(
     draft.offer(Part::Hips, Some(shape.hips).filter(|&hips| names.kind(hips).is_none()), Origin::Shape);
     draft.offer(Part::Head, shape.head, Origin::Shape);
     draft.offer(Part::Neck, shape.neck, Origin::Shape);
+    notes.extend(seen_by.map(|by| {
+        let swap = match by {
+            SeenBy::Toes => "where its toes point",
+            SeenBy::Travel => "where it travels, and a walk backward swaps them",
+        };
+        Note::new(format!("left and right were told by {swap}: its names have no sides; ReadOptions::parts names them"))
+    }));
     notes.push(Note::new("joint names do not identify all parts: some were guessed from the shape of the skeleton"));
     Ok(())
 }
@@ -56,18 +74,33 @@ fn named_left_first(pair: &[Limb; 2], names: &Names, draft: &Draft) -> Option<bo
     (votes != 0).then_some(votes > 0)
 }
 
+/// By the other pair, whose names have sides.
+fn beside_left_first(poses: &[Vec<Transform>], pair: &[Limb; 2], (other, left_first): (&[Limb; 2], bool)) -> bool {
+    let across =
+        |pose: &Vec<Transform>, pair: &[Limb; 2]| pose[pair[0].upper].translation - pose[pair[1].upper].translation;
+    let same: f64 = poses.iter().map(|pose| across(pose, pair).dot(across(pose, other))).sum();
+    (same >= 0.0) == left_first
+}
+
+/// What told left from right where names did not.
+#[derive(Clone, Copy)]
+enum SeenBy {
+    Toes,
+    Travel,
+}
+
 /// By where they are: left is up × forward.
-fn seen_left_first(clip: &Clip, shape: &Shape, poses: &[Vec<Transform>], pair: &[Limb; 2]) -> Option<bool> {
+fn seen_left_first(clip: &Clip, shape: &Shape, poses: &[Vec<Transform>], pair: &[Limb; 2]) -> Option<(bool, SeenBy)> {
     let feet = shape.legs.each_ref().map(|leg| leg.end.unwrap_or(leg.lower));
     let ends = shape.legs.each_ref().map(|leg| leg.beyond);
     let head = shape.head.or(shape.neck)?;
-    let left = left_of(clip, poses, shape.hips, head, feet, ends)?;
+    let (left, by) = left_of(clip, poses, shape.hips, head, feet, ends)?;
     let seen: f64 = poses
         .iter()
         .zip(&left)
         .map(|(pose, left)| left.dot(pose[pair[0].upper].translation - pose[pair[1].upper].translation))
         .sum();
-    (seen != 0.0).then_some(seen > 0.0)
+    (seen != 0.0).then_some((seen > 0.0, by))
 }
 
 /// The unit vector to the body's left in each pose, from up and the direction of the toes, else of travel; `None` when
@@ -79,7 +112,7 @@ fn left_of(
     head: usize,
     feet: [usize; 2],
     toes: [Option<usize>; 2],
-) -> Option<Vec<DVec3>> {
+) -> Option<(Vec<DVec3>, SeenBy)> {
     let up = leading_axis(
         poses.iter().map(|pose| pose[head].translation - 0.5 * (pose[feet[0]].translation + pose[feet[1]].translation)),
     );
@@ -97,10 +130,11 @@ fn left_of(
     let forward: Vec<DVec3> = poses.iter().map(toe_direction).collect();
     let size = (poses[0][head].translation - poses[0][hips].translation).length();
     if forward.iter().map(|forward| forward.length()).sum::<f64>() > 0.02 * size * poses.len() as f64 {
-        return Some(forward.into_iter().map(|forward| up.cross(forward).normalize_or_zero()).collect());
+        let left = forward.into_iter().map(|forward| up.cross(forward).normalize_or_zero());
+        return Some((left.collect(), SeenBy::Toes));
     }
     let travel = level(poses[poses.len() - 1][hips].translation - poses[0][hips].translation);
-    (travel.length() > size).then(|| vec![up.cross(travel).normalize(); poses.len()])
+    (travel.length() > size).then(|| (vec![up.cross(travel).normalize(); poses.len()], SeenBy::Travel))
 }
 
 /// A note if the parts called left are on the right.
@@ -112,7 +146,7 @@ pub(super) fn doubt(humanoid: &Humanoid, clip: &Clip) -> Option<Note> {
         // The tip of a foot may be its sole, and travel may be backward: neither contradicts the names.
         return None;
     }
-    let left = left_of(clip, &poses, humanoid.hips(), humanoid.head(), feet, toes)?;
+    let (left, _) = left_of(clip, &poses, humanoid.hips(), humanoid.head(), feet, toes)?;
     let uppers = SIDES.map(|side| humanoid.leg(side)[0]);
     let agree = poses
         .iter()

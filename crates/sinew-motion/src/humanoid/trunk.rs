@@ -105,7 +105,7 @@ fn find_neck(draft: &mut Draft, skeleton: &Skeleton, names: &Names, chest: usize
     let below_head = chain.iter().copied().filter(|&joint| head != Some(joint));
     let first = below_head.clone().find(|&joint| names.kind(joint) == Some(Kind::Neck)).or(below_head.clone().next());
     if let Some(first) = first {
-        if draft.origin(Part::Neck) != Some(Origin::Override) {
+        if !matches!(draft.origin(Part::Neck), Some(Origin::Override | Origin::Stated)) {
             let origin = if names.kind(first) == Some(Kind::Neck) { Origin::Name } else { Origin::Shape };
             draft.drop_part(Part::Neck);
             draft.offer(Part::Neck, Some(first), origin);

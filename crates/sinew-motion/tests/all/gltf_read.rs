@@ -69,7 +69,9 @@ fn the_fox_keeps_its_units_and_its_other_animations_are_named() {
     assert_eq!((fox.clip.skeleton().len(), fox.clip.frames()), (24, 83));
     assert_eq!(fox.unit_m, Some(1.0), "glTF is metres by definition, even where it makes a giant fox");
     assert!(fox.clip.world(0)[joint(&fox, "b_Head_05")].translation.y > 50.0);
-    assert!(fox.notes.iter().any(|note| note.text.contains("Walk, Run")), "{:?}", fox.notes);
+    let names: Vec<&str> = fox.contents.animations.iter().map(|animation| animation.name.as_str()).collect();
+    assert_eq!(names, ["Survey", "Walk", "Run"]);
+    assert!(fox.contents.animations[0].is_read && fox.contents.animations.iter().all(|other| other.frames > 10));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod analysis;
 mod binary_support;
+mod choosing;
 mod fbx_hostile;
 mod fbx_read;
 mod from_memory;

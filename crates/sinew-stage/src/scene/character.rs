@@ -186,7 +186,7 @@ impl CharacterSpec {
         count(&at("aliases"), self.aliases.len(), 100)?;
         for (alias, part) in &self.aliases {
             let path = ["characters", name, "aliases", alias];
-            if alias.parse::<Part>().is_ok() {
+            if Part::named(alias).is_some() {
                 return Err(Fault::at(&path, "this is a part's own name; choose another alias"));
             }
             if part.parse::<Part>().is_err() {

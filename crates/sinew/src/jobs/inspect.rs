@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sinew_body::humanoid::{Node, Person, Reduction};
-use sinew_motion::formats::MotionFile;
+use sinew_motion::formats::{AnimationInfo, MotionFile};
 use sinew_motion::{Origin, find_cycle, find_defects, floor_height_m, moves_from};
 use sinew_response::{Excerpt, PreparedClip, Settings};
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 pub struct Inspection {
     /// The file.
     pub file: String,
-    /// `bvh`, `amc`, `gltf`, `glb` or `fbx`.
+    /// `bvh`, `amc`, `gltf`, `glb`, `vrm`, `vrma` or `fbx`.
     pub format: String,
     /// How many frames.
     pub frames: usize,
@@ -26,6 +26,8 @@ pub struct Inspection {
     pub stature_m: Option<f64>,
     /// Why the skeleton is not a human body; null if it is one.
     pub no_body: Option<String>,
+    /// All animations of the file, in its order; empty for formats that hold one without a name.
+    pub animations: Vec<AnimationReport>,
     /// The joints in the file's order.
     pub joints: Vec<JointReport>,
     /// Mass of each part of the person \[kg\].
@@ -46,6 +48,19 @@ pub struct Inspection {
     pub defects: Vec<DefectReport>,
     /// What was guessed, repaired or lost in reading.
     pub notes: Vec<String>,
+}
+
+/// One animation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AnimationReport {
+    /// Its name; empty where the file gives it none.
+    pub name: String,
+    /// Number of frames that its keys make; 0 where they cannot be read.
+    pub frames: usize,
+    /// Frames per second.
+    pub fps: f64,
+    /// Whether it is the one that was read and inspected.
+    pub is_read: bool,
 }
 
 /// One joint.
@@ -101,6 +116,16 @@ pub fn inspect(file: &MotionFile, person: Person) -> Inspection {
         unit_m: file.space.unit_m,
         stature_m: None,
         no_body: file.humanoid.as_ref().err().map(ToString::to_string),
+        animations: file
+            .animations
+            .iter()
+            .map(|AnimationInfo { name, frames, fps, is_read }| AnimationReport {
+                name: name.clone(),
+                frames: *frames,
+                fps: *fps,
+                is_read: *is_read,
+            })
+            .collect(),
         joints: joints
             .iter()
             .enumerate()

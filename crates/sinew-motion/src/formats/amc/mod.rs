@@ -38,7 +38,7 @@ pub use find::find_skeleton;
 pub use skeleton::Asf;
 
 use super::text::{Losses, check_finite};
-use super::{Document, Parsed, WriteJob};
+use super::{Contents, Document, Parsed, WriteJob};
 use crate::{Clip, Error, Limits, Note, Place};
 use std::io::Write;
 use std::sync::Arc;
@@ -111,6 +111,7 @@ pub fn read(amc: &[u8], asf: &[u8], limits: &Limits) -> Result<Parsed, Error> {
         unit_m,
         world_from_source: Some(glam::DQuat::IDENTITY),
         document: Document::Amc(Box::new(document)),
+        contents: Contents::default(),
         notes,
     })
 }

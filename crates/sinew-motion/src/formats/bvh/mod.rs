@@ -42,7 +42,7 @@ mod rewrite;
 pub use document::BvhDocument;
 
 use super::text::{Losses, check_finite, text_start};
-use super::{Document, Parsed, WriteJob};
+use super::{Contents, Document, Parsed, WriteJob};
 use crate::{Clip, Error, Limits, Note, Place};
 use glam::DVec3;
 use std::io::Write;
@@ -74,7 +74,14 @@ pub fn read(bytes: &[u8], limits: &Limits) -> Result<Parsed, Error> {
     let rows = motion::rows(bytes, &timing, &header.columns, limits, &mut clip, &mut notes)?;
     add_offsets(&mut clip, &mut notes);
     let document = BvhDocument { bytes: Arc::from(bytes), columns: header.columns, timing, rows };
-    Ok(Parsed { clip, unit_m: None, world_from_source: None, document: Document::Bvh(Box::new(document)), notes })
+    Ok(Parsed {
+        clip,
+        unit_m: None,
+        world_from_source: None,
+        document: Document::Bvh(Box::new(document)),
+        contents: Contents::default(),
+        notes,
+    })
 }
 
 /// Joints whose positions are all 0 beside an OFFSET: some exporters mean positions from there, and without it a body collapses.

@@ -1,7 +1,7 @@
 //! Autodesk FBX, read only, by way of [ufbx](https://github.com/ufbx/ufbx).
 //!
 //! The skeleton is made of the bones (limb nodes) and the nodes above them; without bones, of the animated nodes. The
-//! motion is the first animation stack's, evaluated at the rate of its keys, or at the file's rate where the keys have
+//! motion is one animation stack's, the first with keys unless another is told, evaluated at the rate of its keys, or at the file's rate where the keys have
 //! none. ufbx turns axes and units into Y up and metres. Joints get their positions from ufbx's world transforms, so
 //! pivots, pre-rotations, scales and the inheritance modes of FBX are all in them; scale itself is left out.
 //!
@@ -11,8 +11,9 @@
 mod motion;
 mod skeleton;
 
-use super::{Document, Parsed};
-use crate::{Error, Limits, Note, Place};
+use super::{Contents, Document, Parsed};
+use crate::choice::choose;
+use crate::{Error, Limits, Place};
 
 /// Constant part of the maximum memory for reading \[bytes\].
 const BASE_MEMORY_BYTES: usize = 64 << 20;
@@ -31,27 +32,35 @@ const MEMORY_PER_BYTE: usize = 32;
 /// # Errors
 /// Bytes that are not FBX, exceed the limits, or hold neither bones nor animated nodes.
 pub fn read(bytes: &[u8], limits: &Limits) -> Result<Parsed, Error> {
+    read_chosen(bytes, None, limits)
+}
+
+/// [`read`], of the animation that `animation` names or numbers.
+pub(crate) fn read_chosen(bytes: &[u8], animation: Option<&str>, limits: &Limits) -> Result<Parsed, Error> {
     if bytes.len() as u64 > limits.file_bytes {
         let problem = format!("{} bytes, the maximum is {}", bytes.len(), limits.file_bytes);
         return Err(whole(problem, "export only the character, without media"));
     }
     let scene = ufbx::load_memory(bytes, options(bytes.len(), limits)).map_err(|error| refused(&error))?;
     let mut notes = Vec::new();
-    if scene.anim_stacks.count > 1 {
-        let names = scene.anim_stacks.into_iter().skip(1).take(20).map(|stack| stack.element.name.to_string());
-        let names = names.collect::<Vec<_>>().join(", ");
-        notes.push(Note::new(format!(
-            "the first of {} animation stacks is read; not read: {names}",
-            scene.anim_stacks.count
-        )));
-    }
-    let rig = skeleton::rig(&scene, limits)?;
-    let clip = motion::sample(&scene, &rig, allocator(bytes.len()), limits, &mut notes)?;
+    let stacks: Vec<&ufbx::AnimStack> = scene.anim_stacks.into_iter().collect();
+    let chosen = match animation {
+        Some(wanted) => {
+            let names: Vec<Vec<&str>> = stacks.iter().map(|stack| vec![&*stack.element.name]).collect();
+            choose(("animation", "animations"), wanted, &names)?
+        }
+        // Mixamo puts an empty `Take 001` first.
+        None => stacks.iter().position(|stack| motion::has_keys(stack)).unwrap_or(0),
+    };
+    let rig = skeleton::rig(&scene, stacks.get(chosen).copied(), limits)?;
+    let clip = motion::sample(&scene, stacks.get(chosen).copied(), &rig, allocator(bytes.len()), limits, &mut notes)?;
+    let animations = motion::list(&scene, &stacks, chosen, &clip, limits);
     Ok(Parsed {
         clip,
         unit_m: Some(1.0),
         world_from_source: Some(glam::DQuat::IDENTITY),
         document: Document::None,
+        contents: Contents { animations, ..Contents::default() },
         notes,
     })
 }

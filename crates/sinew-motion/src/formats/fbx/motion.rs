@@ -2,6 +2,7 @@
 
 use super::skeleton::Bone;
 use super::{at_node, refused, whole};
+use crate::formats::AnimationInfo;
 use crate::formats::rate::rate_hz;
 use crate::{Clip, Error, Joint, Limits, Note, Skeleton, Transform};
 use glam::{DMat3, DQuat, DVec3};
@@ -24,9 +25,10 @@ struct Span {
     frames: usize,
 }
 
-/// Evaluates the first animation stack, or the pose of the file where there is none.
+/// Evaluates an animation stack, or the pose of the file where there is none.
 pub(super) fn sample(
     scene: &ufbx::Scene,
+    stack: Option<&ufbx::AnimStack>,
     bones: &[Bone],
     memory: ufbx::AllocatorOpts,
     limits: &Limits,
@@ -34,9 +36,9 @@ pub(super) fn sample(
 ) -> Result<Clip, Error> {
     let mut rest = Vec::new();
     pose_into(scene, bones, &mut rest)?;
-    let span = span(scene, limits)?;
+    let span = span(scene, stack, limits)?;
     let mut frames: Vec<Vec<Transform>> = Vec::new();
-    match (scene.anim_stacks.into_iter().next(), span.frames) {
+    match (stack, span.frames) {
         (Some(stack), 2..) => {
             let values = span.frames.saturating_mul(scene.nodes.count.max(bones.len() * 7));
             if values > limits.values {
@@ -117,12 +119,36 @@ fn rigid(matrix: &ufbx::Matrix) -> Option<Transform> {
     (rotation.is_finite() && translation.is_finite()).then_some(Transform { rotation, translation })
 }
 
-/// From the first to the last key of the first stack, within the times that the stack states.
-fn span(scene: &ufbx::Scene, limits: &Limits) -> Result<Span, Error> {
+/// All animation stacks, with the frames and the rate that their keys make; `clip` is the one that was read.
+pub(super) fn list(
+    scene: &ufbx::Scene,
+    stacks: &[&ufbx::AnimStack],
+    chosen: usize,
+    clip: &Clip,
+    limits: &Limits,
+) -> Vec<AnimationInfo> {
+    let info = |(index, stack): (usize, &&ufbx::AnimStack)| {
+        let (frames, fps) = match index == chosen {
+            true => (clip.frames(), clip.fps()),
+            false => span(scene, Some(stack), limits).map_or((0, 0.0), |span| (span.frames, span.hz)),
+        };
+        AnimationInfo { name: stack.element.name.to_string(), frames, fps, is_read: index == chosen }
+    };
+    stacks.iter().enumerate().map(info).collect()
+}
+
+/// Whether a stack has a curve with two keys or more.
+pub(super) fn has_keys(stack: &ufbx::AnimStack) -> bool {
+    let values = stack.layers.into_iter().flat_map(|layer| &layer.anim_values);
+    values.flat_map(|value| value.curves.iter().flatten()).any(|curve| curve.keyframes.count > 1)
+}
+
+/// From the first to the last key of the stack, within the times that the stack states.
+fn span(scene: &ufbx::Scene, stack: Option<&ufbx::AnimStack>, limits: &Limits) -> Result<Span, Error> {
     let file_hz = scene.settings.frames_per_second;
     let file_hz = if FILE_HZ.contains(&file_hz) { file_hz } else { DEFAULT_HZ };
     let still = Span { start_secs: 0.0, length_secs: 0.0, hz: file_hz, frames: 1 };
-    let Some(stack) = scene.anim_stacks.into_iter().next() else { return Ok(still) };
+    let Some(stack) = stack else { return Ok(still) };
     let mut tracks: Vec<Vec<f64>> = Vec::new();
     for layer in &stack.layers {
         for value in &layer.anim_values {

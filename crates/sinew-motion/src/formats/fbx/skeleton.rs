@@ -12,14 +12,15 @@ pub(super) struct Bone {
     pub node: usize,
 }
 
-/// The scene's bones and the nodes above them, without ufbx's own root; where there are no bones, its animated nodes.
-pub(super) fn rig(scene: &ufbx::Scene, limits: &Limits) -> Result<Vec<Bone>, Error> {
+/// The scene's bones and the nodes above them, without ufbx's own root; where there are no bones, the nodes that a stack
+/// animates.
+pub(super) fn rig(scene: &ufbx::Scene, stack: Option<&ufbx::AnimStack>, limits: &Limits) -> Result<Vec<Bone>, Error> {
     let mut member = vec![false; scene.nodes.count];
     for (slot, node) in member.iter_mut().zip(&scene.nodes) {
         *slot = node.bone.is_some();
     }
     if !member.contains(&true) {
-        mark_animated(scene, &mut member);
+        mark_animated(stack, &mut member);
     }
     // ufbx sorts nodes by depth, so going backwards meets children before parents.
     for index in (0..scene.nodes.count).rev() {
@@ -69,8 +70,8 @@ fn is_joint(node: &ufbx::Node, member: &[bool]) -> bool {
     member.get(node.element.typed_id as usize).is_some_and(|member| *member) && !node.is_root
 }
 
-fn mark_animated(scene: &ufbx::Scene, member: &mut [bool]) {
-    let Some(stack) = (&scene.anim_stacks).into_iter().next() else { return };
+fn mark_animated(stack: Option<&ufbx::AnimStack>, member: &mut [bool]) {
+    let Some(stack) = stack else { return };
     for layer in &stack.layers {
         for property in &layer.anim_props {
             let element: &ufbx::Element = &property.element;

@@ -22,12 +22,12 @@ pub(super) struct NodeTracks {
     pub scale: Option<Track>,
 }
 
-/// Which nodes the first animation moves; checks the channels' indices.
+/// Which nodes the animation that is read moves; checks the channels' indices.
 pub(super) fn animated(root: &Root) -> Result<Vec<bool>, Error> {
     let mut animated = vec![false; root.nodes.len()];
-    let Some(animation) = root.animations.first() else { return Ok(animated) };
+    let Some(animation) = root.animation() else { return Ok(animated) };
     for (index, channel) in animation.channels.iter().enumerate() {
-        let name = || format!("animations[0].channels[{index}]");
+        let name = || root.animation_element("channels", index);
         if channel.sampler >= animation.samplers.len() {
             let problem = format!("sampler {} does not exist", channel.sampler);
             return Err(element(name(), problem, EXPORT_AGAIN));
@@ -41,7 +41,7 @@ pub(super) fn animated(root: &Root) -> Result<Vec<bool>, Error> {
     Ok(animated)
 }
 
-/// Reads the first animation's channels for the nodes that `wanted` names.
+/// Reads that animation's channels for the nodes that `wanted` names.
 pub(super) fn tracks(
     root: &Root,
     data: &Data<'_>,
@@ -49,11 +49,11 @@ pub(super) fn tracks(
     notes: &mut Vec<Note>,
 ) -> Result<BTreeMap<usize, NodeTracks>, Error> {
     let mut tracks: BTreeMap<usize, NodeTracks> = BTreeMap::new();
-    let Some(animation) = root.animations.first() else { return Ok(tracks) };
+    let Some(animation) = root.animation() else { return Ok(tracks) };
     let mut inputs = BTreeMap::new();
     let mut elsewhere = 0;
     for (index, channel) in animation.channels.iter().enumerate() {
-        let name = format!("animations[0].channels[{index}]");
+        let name = root.animation_element("channels", index);
         let Some(node) = channel.target.node else { continue };
         if !wanted[node] {
             elsewhere += 1;
@@ -85,8 +85,8 @@ fn track(
     shape: &str,
     inputs: &mut BTreeMap<usize, Rc<Vec<f64>>>,
 ) -> Result<Track, Error> {
-    let sampler = &root.animations[0].samplers[index];
-    let name = format!("animations[0].samplers[{index}]");
+    let sampler = &root.animations[root.chosen].samplers[index];
+    let name = root.animation_element("samplers", index);
     let interpolation = match sampler.interpolation.as_deref() {
         None | Some("LINEAR") => Interpolation::Linear,
         Some("STEP") => Interpolation::Step,

@@ -35,7 +35,7 @@ pub(super) fn retime(
             }
             let shape = if track.width == 4 { "VEC4" } else { "VEC3" };
             let output = append.floats(shape, &values, false, None);
-            set_channel(file, node, path, input, output)
+            set_channel(file, root.chosen, node, path, input, output)
         };
         add("scale", &tracks.scale)?;
         if !joints.contains(&node) {

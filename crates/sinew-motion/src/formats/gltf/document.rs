@@ -1,6 +1,7 @@
 //! The source document of a glTF file.
 
 use super::rig::JointNode;
+use crate::formats::Format;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -12,7 +13,11 @@ pub struct GltfDocument {
     pub(super) folder: Option<PathBuf>,
     /// One per joint of the clip.
     pub(super) joints: Vec<JointNode>,
-    /// Time of the clip's first frame in the first animation \[s\].
+    /// Which kind of VRM it is, if it is one.
+    pub(super) vrm: Option<Format>,
+    /// Index of the animation that was read.
+    pub(super) animation: usize,
+    /// Time of the clip's first frame in it \[s\].
     pub(super) start_secs: f64,
 }
 
@@ -34,6 +39,7 @@ impl fmt::Debug for GltfDocument {
             .field("bytes", &self.bytes.len())
             .field("folder", &self.folder)
             .field("joints", &self.joints.len())
+            .field("animation", &self.animation)
             .field("start_secs", &self.start_secs)
             .finish()
     }

@@ -7,9 +7,10 @@ use super::document::GltfDocument;
 use super::rig::{self, Rig};
 use super::schema::Root;
 use super::track::Interpolation;
-use super::{element, tree, uri};
+use super::tree::Tree;
+use super::{animation_list, element, tree, uri, vrm};
 use crate::formats::rate::rate_hz;
-use crate::formats::{Document, Parsed};
+use crate::formats::{Contents, Document, Parsed};
 use crate::{Clip, Error, Limits, Note, Place, Transform};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -17,9 +18,7 @@ use std::path::Path;
 /// Extensions for compressed buffers that we cannot decode.
 const PACKED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 /// Default rate if the keys have none \[Hz\].
-const DEFAULT_HZ: f64 = 60.0;
-/// Maximum number of other animations named in the note.
-const MAX_NAMES: usize = 20;
+pub(super) const DEFAULT_HZ: f64 = 60.0;
 /// Maximum number of frames, a constant part and a part for each key: two keys an hour apart would otherwise turn a
 /// hundred bytes into a gigabyte.
 const FREE_FRAMES: usize = 20_000;
@@ -27,19 +26,24 @@ const FRAMES_PER_KEY: usize = 1_000;
 
 /// Reads a `.gltf` or `.glb` file. Buffers in other files are read only from the file's own folder or below it.
 ///
-/// The motion is that of the first animation; see the [module](super) for what becomes of the rest.
+/// The motion is that of the first animation with keys of the skeleton; see the [module](super) for what becomes of the rest.
 ///
 /// # Errors
 /// A file that cannot be read, is not glTF 2.0, exceeds the limits, or is invalid where the motion is; the error names
 /// the element (`accessors[3]`) or the byte.
 pub fn read(path: &Path, limits: &Limits) -> Result<Parsed, Error> {
+    read_chosen(path, None, limits)
+}
+
+/// [`read`], of the animation that `animation` names or numbers.
+pub(crate) fn read_chosen(path: &Path, animation: Option<&str>, limits: &Limits) -> Result<Parsed, Error> {
     let bytes = uri::read_at_most(path, limits.file_bytes)
         .map_err(|problem| Error::new(Place::File, problem, "check the path and the file").in_file(path))?;
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    read_slice(&bytes, Some(folder), limits).map_err(|error| error.in_file(path))
+    read_slice_chosen(&bytes, Some(folder), animation, limits).map_err(|error| error.in_file(path))
 }
 
 /// Reads a glTF file from memory. Without a `folder`, buffers in other files are refused.
@@ -57,19 +61,31 @@ pub fn read(path: &Path, limits: &Limits) -> Result<Parsed, Error> {
 /// # Errors
 /// As [`read`].
 pub fn read_slice(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> Result<Parsed, Error> {
+    read_slice_chosen(bytes, folder, None, limits)
+}
+
+/// [`read_slice`], of the animation that `animation` names or numbers.
+pub(crate) fn read_slice_chosen(
+    bytes: &[u8],
+    folder: Option<&Path>,
+    animation: Option<&str>,
+    limits: &Limits,
+) -> Result<Parsed, Error> {
     if bytes.len() as u64 > limits.file_bytes {
         let problem = format!("{} bytes; the maximum is {}", bytes.len(), limits.file_bytes);
         return Err(Error::new(Place::File, problem, "export only the character"));
     }
     let container = container::open(bytes)?;
-    let root = parse(&container)?;
+    let mut root = parse(&container)?;
     let mut notes = Vec::new();
     if container.trailing_bytes > 0 {
         notes.push(Note::new(format!("{} bytes after the end of the GLB are ignored", container.trailing_bytes)));
     }
     let tree = tree::tree(&root)?;
+    let bones = vrm::bones(&root, &mut notes);
+    root.chosen = animation_list::chosen(&root, &tree, &bones, animation)?;
     let animated = animation::animated(&root)?;
-    let joints = tree::joints(&root, &tree, &animated)?;
+    let joints = tree::joints(&root, &tree, &animated, &bones)?;
     if !joints.contains(&true) {
         let problem = "it has neither a skin nor an animated node, so nothing in it is a skeleton";
         return Err(Error::new(Place::File, problem, "export the armature with the mesh or its animation"));
@@ -78,22 +94,47 @@ pub fn read_slice(bytes: &[u8], folder: Option<&Path>, limits: &Limits) -> Resul
     let data = Data::new(&root, container.bin, folder, limits);
     let tracks = animation::tracks(&root, &data, &members, &mut notes)?;
     let rig = rig::rig(&root, &tree, &members, &tracks, limits, &mut notes)?;
-    name_other_animations(&root, &mut notes);
     let joints = rig.joints.clone();
-    let (clip, start_secs) = sample(rig, &tracks, limits, &mut notes)?;
+    let armatures = armatures(&root, &tree, &rig);
+    let (clip, start_secs) = sample(rig, &tracks, root.chosen, limits, &mut notes)?;
     if let Some((frame, joint)) = clip.first_non_finite() {
         let problem = format!("frame {frame} is not finite");
         return Err(element(format!("nodes[{}]", joints[joint].node), problem, "export again without broken keys"));
     }
     let folder = folder.map(Path::to_owned);
-    let document = GltfDocument { bytes: bytes.to_vec(), folder, joints, start_secs };
+    let animations = animation_list::list(&root, &data, &members, &clip, limits);
+    let parts = vrm::parts(&bones, &joints);
+    let world_from_source = vrm::world_from_source(&root);
+    let document = GltfDocument {
+        bytes: bytes.to_vec(),
+        folder,
+        joints,
+        vrm: vrm::kind(&root),
+        animation: root.chosen,
+        start_secs,
+    };
     Ok(Parsed {
         clip,
         unit_m: Some(1.0),
-        world_from_source: Some(glam::DQuat::IDENTITY),
+        world_from_source: Some(world_from_source),
         document: Document::Gltf(Box::new(document)),
+        contents: Contents { animations, armatures, parts },
         notes,
     })
+}
+
+/// The names of the nodes above the root joints, of each the nearest one that has a name.
+fn armatures(root: &Root, tree: &Tree, rig: &Rig) -> Vec<(usize, String)> {
+    let mut armatures = Vec::new();
+    for (joint, at) in rig.joints.iter().enumerate() {
+        if rig.skeleton.joints()[joint].parent.is_some() {
+            continue;
+        }
+        let above = std::iter::successors(tree.parent[at.node], |&node| tree.parent[node]);
+        let name = above.filter_map(|node| root.nodes[node].name.as_ref()).find(|name| !name.trim().is_empty());
+        armatures.extend(name.map(|name| (joint, name.clone())));
+    }
+    armatures
 }
 
 /// Parses the JSON and refuses what we would misread.
@@ -113,23 +154,6 @@ pub(super) fn parse(container: &Container<'_>) -> Result<Root, Error> {
     Ok(root)
 }
 
-fn name_other_animations(root: &Root, notes: &mut Vec<Note>) {
-    let Some((first, others)) = root.animations.split_first() else { return };
-    if others.is_empty() {
-        return;
-    }
-    let name = |animation: &super::schema::Animation| animation.name.clone().unwrap_or_else(|| "(no name)".into());
-    let mut list = others.iter().take(MAX_NAMES).map(name).collect::<Vec<_>>().join(", ");
-    if others.len() > MAX_NAMES {
-        list.push_str(", ...");
-    }
-    notes.push(Note::new(format!(
-        "the first of {} animations is read, {}; not read: {list}",
-        root.animations.len(),
-        name(first)
-    )));
-}
-
 /// How many whole frames before the first key hold its value: the time of glTF begins at 0 (glTF 2.0, 3.11).
 ///
 /// One frame alone is none: exporters that count frames from 1 put the first key there, and a pause is not meant.
@@ -143,6 +167,7 @@ fn held_frames(start_secs: f64, hz: f64) -> f64 {
 fn sample(
     mut rig: Rig,
     tracks: &BTreeMap<usize, NodeTracks>,
+    chosen: usize,
     limits: &Limits,
     notes: &mut Vec<Note>,
 ) -> Result<(Clip, f64), Error> {
@@ -189,7 +214,7 @@ fn sample(
     let values = frames * (rig.skeleton.len() * 4 + moving.len() * 3) as f64;
     if frames > most as f64 || values > limits.values as f64 {
         let problem = format!("{length_secs} s at {hz} Hz are more frames than allowed for {densest} keys");
-        return Err(element("animations[0]", problem, "cut the animation into shorter ones"));
+        return Err(element(format!("animations[{chosen}]"), problem, "cut the animation into shorter ones"));
     }
     let rests: Vec<Transform> = rig.skeleton.joints().iter().map(|joint| joint.rest).collect();
     let mut is_moving = vec![false; rests.len()];

@@ -46,7 +46,8 @@ pub(super) fn rewrite(
     if same_format && !retimed && changes.iter().all(|change| !change.rotation && !change.translation) {
         return Ok(document.bytes.clone());
     }
-    let root = reader::parse(&container)?;
+    let mut root = reader::parse(&container)?;
+    root.chosen = document.animation;
     let mut file: Map<String, Value> =
         serde_json::from_slice(container.json).map_err(|error| element("JSON", error.to_string(), BUG))?;
     let limits = Limits::default();
@@ -190,7 +191,7 @@ impl Edit<'_> {
                 let input = *input.get_or_insert_with(|| append.floats("SCALAR", &times, true, None));
                 let output = append.floats(shape, &values, false, None);
                 take_matrix_apart(file, root, at.node)?;
-                set_channel(file, at.node, path, input, output)
+                set_channel(file, root.chosen, at.node, path, input, output)
             };
             if change.rotation || retimed && has_channel(root, at.node, "rotation") {
                 add("rotation", "VEC4", keys::rotations(clip, |frame| local(frame).rotation), append)?;
@@ -213,7 +214,7 @@ impl Edit<'_> {
 }
 
 fn has_channel(root: &Root, node: usize, path: &str) -> bool {
-    root.animations.first().is_some_and(|animation| {
+    root.animation().is_some_and(|animation| {
         animation.channels.iter().any(|channel| channel.target.node == Some(node) && channel.target.path == path)
     })
 }
@@ -230,9 +231,10 @@ fn take_matrix_apart(file: &mut Map<String, Value>, root: &Root, index: usize) -
     Ok(())
 }
 
-/// Points a channel of the first animation at new keys; a sampler that other channels share is left to them.
+/// Points a channel of an animation at new keys; a sampler that other channels share is left to them.
 pub(super) fn set_channel(
     file: &mut Map<String, Value>,
+    index: usize,
     node: usize,
     path: &str,
     input: usize,
@@ -242,8 +244,8 @@ pub(super) fn set_channel(
     if animations.is_empty() {
         animations.push(json!({ "name": "motion", "channels": [], "samplers": [] }));
     }
-    let broken = || element("animations[0]", "it is not an animation", BUG);
-    let animation = animations[0].as_object_mut().ok_or_else(broken)?;
+    let broken = || element(format!("animations[{index}]"), "it is not an animation", BUG);
+    let animation = animations.get_mut(index).and_then(Value::as_object_mut).ok_or_else(broken)?;
     let channels = list(animation, "channels")?;
     let is_ours = |channel: &Value| channel["target"]["node"] == json!(node) && channel["target"]["path"] == *path;
     let found = channels.iter().position(is_ours);

@@ -3,6 +3,7 @@
 //! Everything else (meshes, materials, extensions) is skipped in reading, so that it costs no memory and cannot make
 //! the reader refuse a motion.
 
+use super::vrm::Extensions;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
@@ -24,6 +25,23 @@ pub(super) struct Root {
     pub buffer_views: Vec<View>,
     #[serde(default)]
     pub buffers: Vec<Buffer>,
+    #[serde(default)]
+    pub extensions: Extensions,
+    /// Index of the animation that is read.
+    #[serde(skip)]
+    pub chosen: usize,
+}
+
+impl Root {
+    /// The animation that is read, if there is any.
+    pub fn animation(&self) -> Option<&Animation> {
+        self.animations.get(self.chosen)
+    }
+
+    /// The name of an element of the animation that is read, for messages.
+    pub fn animation_element(&self, list: &str, index: usize) -> String {
+        format!("animations[{}].{list}[{index}]", self.chosen)
+    }
 }
 
 #[derive(Debug, Deserialize)]

@@ -2,7 +2,7 @@
 
 use super::element;
 use super::schema::Root;
-use crate::Error;
+use crate::{Error, Part};
 
 const EXPORT_AGAIN: &str = "the file is damaged or its exporter is wrong: export it again";
 
@@ -75,8 +75,9 @@ impl Tree {
 }
 
 /// For each node whether it is a joint: of the first skin, and of all skins that share a joint with it or hang from
-/// it or carry it (a body exported as several meshes); without any skin, the nodes that `animated` names.
-pub(super) fn joints(root: &Root, tree: &Tree, animated: &[bool]) -> Result<Vec<bool>, Error> {
+/// it or carry it (a body exported as several meshes), and of all that are large enough for a body of their own; without any skin, the
+/// nodes that `animated` names. What the file calls `bones` are joints in any case.
+pub(super) fn joints(root: &Root, tree: &Tree, animated: &[bool], bones: &[(Part, usize)]) -> Result<Vec<bool>, Error> {
     let mut chosen = vec![false; root.nodes.len()];
     for (index, skin) in root.skins.iter().enumerate() {
         if let Some(joint) = skin.joints.iter().find(|&&joint| joint >= root.nodes.len()) {
@@ -85,10 +86,14 @@ pub(super) fn joints(root: &Root, tree: &Tree, animated: &[bool]) -> Result<Vec<
         }
     }
     let Some((first, rest)) = root.skins.split_first() else {
-        return Ok(animated.to_vec());
+        let mut chosen = animated.to_vec();
+        bones.iter().for_each(|&(_, bone)| chosen[bone] = true);
+        return Ok(chosen);
     };
-    first.joints.iter().for_each(|&joint| chosen[joint] = true);
-    let mut waiting: Vec<_> = rest.iter().collect();
+    first.joints.iter().chain(bones.iter().map(|(_, bone)| bone)).for_each(|&joint| chosen[joint] = true);
+    let (others, mut waiting): (Vec<_>, Vec<_>) =
+        rest.iter().partition(|skin| skin.joints.len() >= crate::humanoid::LEAST_JOINTS);
+    others.iter().flat_map(|skin| &skin.joints).for_each(|&joint| chosen[joint] = true);
     for _ in 0..MAX_ROUNDS {
         let (above, below) = (tree.at_or_above(&chosen), tree.at_or_below(&chosen));
         let before = waiting.len();

@@ -12,7 +12,7 @@ use std::io::Write;
 /// Writes a clip as `.glb`, or as `.gltf` with its buffer inside.
 ///
 /// A clip that was read from a glTF file becomes that file again: everything in it stays but the rotations (and the
-/// translations of moving joints) of the joints that changed, which are replaced in its first animation. Nothing
+/// translations of moving joints) of the joints that changed, which are replaced in the animation that was read. Nothing
 /// changed and the same format means the same bytes. Where frames were cut or the rate changed, scales and what else
 /// the animation moves are sampled again with the joints; only the weights of morph targets keep their times. Textures in other files stay named, not copied; buffers in other
 /// files go into a `.glb`, and stay named in a `.gltf`.
@@ -42,14 +42,17 @@ use std::io::Write;
 /// The clip is empty, not finite or exceeds single precision, a shape is invalid, `format` is not glTF, the file would
 /// exceed 4 GiB, or `out` fails.
 pub fn write(out: &mut dyn Write, job: &WriteJob<'_>, format: Format, body: &[BodyShape]) -> Result<(), Error> {
-    if !matches!(format, Format::Glb | Format::Gltf) {
+    if !matches!(format, Format::Glb | Format::Gltf | Format::Vrm | Format::Vrma) {
         let problem = format!("the glTF writer is asked for {format}");
         return Err(Error::new(Place::File, problem, "name the output .glb or .gltf"));
     }
     keys::check(job.clip)?;
     let bytes = match &job.source {
         Some(source) => match source.document {
-            Document::Gltf(document) if rewrite::fits(job.clip, source, document) => {
+            Document::Gltf(document)
+                if rewrite::fits(job.clip, source, document) && fits_kind(document.vrm, format) =>
+            {
+                let format = if format == Format::Gltf { format } else { Format::Glb };
                 rewrite::rewrite(job.clip, source, document, format)?
             }
             _ => write_anew(job.clip, format, body)?,
@@ -60,7 +63,23 @@ pub fn write(out: &mut dyn Write, job: &WriteJob<'_>, format: Format, body: &[Bo
         .map_err(|error| Error::new(Place::File, error.to_string(), "check the disk and the permissions"))
 }
 
+/// Whether a file of this kind of VRM can be written again in a format.
+fn fits_kind(kind: Option<Format>, format: Format) -> bool {
+    matches!(format, Format::Glb | Format::Gltf) || kind == Some(format)
+}
+
 fn write_anew(clip: &Clip, format: Format, body: &[BodyShape]) -> Result<Vec<u8>, Error> {
+    match format {
+        Format::Vrm => {
+            let problem = "a VRM is a character with its licence, and only a .vrm can be written again as one";
+            return Err(Error::new(Place::File, problem, "write the motion as .vrma, or the body as .glb"));
+        }
+        Format::Vrma => {
+            let problem = "only a .vrma can be written again as one";
+            return Err(Error::new(Place::File, problem, "write .glb"));
+        }
+        _ => {}
+    }
     check_body(clip, body)?;
     let mut append = Append::default();
     let (mut nodes, mut scene) = nodes(clip);
