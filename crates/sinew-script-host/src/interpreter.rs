@@ -4,11 +4,15 @@ use super::{character, console, devices, maths, random, words};
 use rustpython_vm::builtins::PyTypeRef;
 use rustpython_vm::common::rc::PyRc;
 use rustpython_vm::compiler::Mode;
+use rustpython_vm::scope::Scope;
 use rustpython_vm::{Interpreter, InterpreterBuilder, PyPayload, PyResult, Settings, VirtualMachine};
 use std::cell::OnceCell;
 
 /// Our Python prelude: vectors, and the filter of imports.
 const PRELUDE: &str = include_str!("prelude.py");
+
+/// What `math` and the built-in functions lack, in Python.
+const STANDARD: &str = include_str!("standard.py");
 
 /// Parts of RustPython that a controller does not need. Without `host_env` it has no files, sockets, processes or signals to
 /// begin with; these hold a clock and ways to run bytes as code.
@@ -72,12 +76,11 @@ fn prepare(vm: &VirtualMachine) -> PyResult<()> {
     for name in REMOVED_FUNCTIONS {
         vm.builtins.dict().del_item(name, vm)?;
     }
-    let code = vm
-        .compile(PRELUDE, Mode::Exec, "<sinew>".to_owned())
-        .map_err(|error| vm.new_syntax_error(&error, Some(PRELUDE)))?;
-    let scope = vm.new_scope_with_builtins();
-    scope.globals.set_item("__name__", vm.ctx.new_str("sinew").into(), vm)?;
-    vm.run_code_obj(code, scope.clone())?;
+    let standard = run(vm, STANDARD)?;
+    let real = vm.builtins.get_attr("round", vm)?;
+    let round = standard.globals.get_item("_rounded", vm)?.call((real,), vm)?;
+    vm.builtins.set_attr("round", round, vm)?;
+    let scope = run(vm, PRELUDE)?;
     let class = scope.globals.get_item("Vector", vm)?.try_into_value::<PyTypeRef>(vm)?;
     VECTOR.with(|kept| drop(kept.set(class)));
     // From here on a script can import what it is told of and nothing else.
@@ -85,4 +88,14 @@ fn prepare(vm: &VirtualMachine) -> PyResult<()> {
     let real = vm.builtins.get_attr("__import__", vm)?;
     let gate = gate.call((real,), vm)?;
     vm.builtins.set_attr("__import__", gate, vm)
+}
+
+/// Runs a text of our own in a scope of its own.
+fn run(vm: &VirtualMachine, text: &str) -> PyResult<Scope> {
+    let code =
+        vm.compile(text, Mode::Exec, "<sinew>".to_owned()).map_err(|error| vm.new_syntax_error(&error, Some(text)))?;
+    let scope = vm.new_scope_with_builtins();
+    scope.globals.set_item("__name__", vm.ctx.new_str("sinew").into(), vm)?;
+    vm.run_code_obj(code, scope.clone())?;
+    Ok(scope)
 }

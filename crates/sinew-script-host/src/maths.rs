@@ -89,6 +89,52 @@ pub(super) mod math {
         one(vm, x, libm::tanh)
     }
     #[pyfunction]
+    fn cbrt(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        one(vm, x, libm::cbrt)
+    }
+    #[pyfunction]
+    fn exp2(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        one(vm, x, libm::exp2)
+    }
+    #[pyfunction]
+    fn expm1(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        one(vm, x, libm::expm1)
+    }
+    #[pyfunction]
+    fn asinh(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        one(vm, x, libm::asinh)
+    }
+    #[pyfunction]
+    fn acosh(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        one(vm, x, libm::acosh)
+    }
+    #[pyfunction]
+    fn atanh(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        one(vm, x, libm::atanh)
+    }
+    #[pyfunction]
+    fn erf(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        one(vm, x, libm::erf)
+    }
+    #[pyfunction]
+    fn erfc(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        one(vm, x, libm::erfc)
+    }
+    #[pyfunction]
+    fn log1p(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        let x = x.into_float();
+        if x <= -1.0 { Err(vm.new_value_error("math domain error")) } else { Ok(libm::log1p(x)) }
+    }
+    #[pyfunction]
+    fn remainder(x: ArgIntoFloat, y: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
+        two(vm, x, y, libm::remainder)
+    }
+    #[pyfunction]
+    fn modf(x: ArgIntoFloat) -> (f64, f64) {
+        let (part, whole) = libm::modf(x.into_float());
+        (part, whole)
+    }
+    #[pyfunction]
     fn fabs(x: ArgIntoFloat, vm: &VirtualMachine) -> PyResult<f64> {
         one(vm, x, f64::abs)
     }

@@ -3,10 +3,22 @@ from math import sqrt
 MODULES = ("math", "random", "itertools")
 
 
+class Future:
+    """`from __future__ import ...` is for the compiler; these are the names that it asks for."""
+
+    annotations = division = generators = nested_scopes = print_function = unicode_literals = with_statement = True
+    absolute_import = generator_stop = True
+
+
 def gate(real):
     def __import__(name, globals=None, locals=None, fromlist=(), level=0):
-        if name not in MODULES or level != 0:
-            raise ImportError(f"no module '{name}' in a controller; there are: {', '.join(MODULES)}")
+        if name == "__future__" and level == 0:
+            return Future
+        if level != 0:
+            raise ImportError("a controller is one file: there is nothing beside it to import")
+        if name not in MODULES:
+            problem = f"no module '{name}' in a controller; there are: {', '.join(MODULES)}"
+            raise ModuleNotFoundError(problem, name=name)
         return real(name, globals, locals, fromlist, level)
 
     return __import__

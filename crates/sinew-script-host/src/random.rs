@@ -63,4 +63,31 @@ pub(super) mod random {
         }
         of.get_item(&((next() * count as f64) as usize).min(count - 1), vm)
     }
+
+    /// In place, from the end (Fisher and Yates; Knuth, The Art of Computer Programming 2, algorithm 3.4.2P).
+    #[pyfunction]
+    fn shuffle(of: PyObjectRef, vm: &VirtualMachine) -> PyResult<()> {
+        for last in (1..of.length(vm)?).rev() {
+            let other = ((next() * (last + 1) as f64) as usize).min(last);
+            let (a, b) = (of.get_item(&last, vm)?, of.get_item(&other, vm)?);
+            of.set_item(&last, b, vm)?;
+            of.set_item(&other, a, vm)?;
+        }
+        Ok(())
+    }
+
+    /// `k` of them, none twice, in random order.
+    #[pyfunction]
+    fn sample(of: PyObjectRef, k: usize, vm: &VirtualMachine) -> PyResult {
+        let mut from: Vec<PyObjectRef> = of.try_to_value(vm)?;
+        if k > from.len() {
+            return Err(vm.new_value_error("Sample larger than population or is negative"));
+        }
+        for place in 0..k {
+            let count = from.len() - place;
+            from.swap(place, place + ((next() * count as f64) as usize).min(count - 1));
+        }
+        from.truncate(k);
+        Ok(vm.ctx.new_list(from).into())
+    }
 }

@@ -8,6 +8,7 @@
 mod api;
 mod devices;
 mod dunk;
+mod edited;
 mod glider;
 #[path = "../../../sinew/tests/all/golden.rs"]
 mod golden;

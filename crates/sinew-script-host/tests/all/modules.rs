@@ -26,6 +26,41 @@ fn math_has_what_a_controller_needs() {
 }
 
 #[test]
+fn math_and_round_answer_as_cpython_does() {
+    let lines = printed(
+        "import math\nprint(math.dist((0, 0, 0), (1, 2, 2)), math.prod([2, 3, 4]), math.factorial(5), math.fsum([0.1] * 10), math.modf(2.5))\n\
+         print(math.gcd(12, -18), math.lcm(4, 6), math.comb(5, 2), math.perm(5, 2), math.isqrt(99), math.remainder(5, 3), math.cbrt(27))\n\
+         print(round(0.15, 1), round(0.005, 2), round(2.675, 2), round(2.665, 2), round(2.5), round(25.0, -1), round(17, -1))\n\
+         print(round(1e308, 5), round(float('inf'), 2), round(-0.4), round(number=1.25, ndigits=1))\nprint(math.log1p(0), math.expm1(0), math.asinh(0), math.erf(0))",
+    );
+    assert_eq!(lines[0], "3.0 24 120 1.0 (0.5, 2.0)");
+    assert_eq!(lines[1], "6 12 10 20 9 -1.0 3.0");
+    assert_eq!(lines[2], "0.1 0.01 2.67 2.67 2 20.0 20");
+    assert_eq!(lines[3], "1e+308 inf 0 1.2");
+    assert_eq!(lines[4], "0.0 0.0 0.0 0.0");
+    assert!(error_of("import math\nmath.factorial(-1)").starts_with("ValueError"));
+    assert!(error_of("import math\nmath.log1p(-1)").contains("math domain error"));
+}
+
+#[test]
+fn everyday_first_lines_of_a_script_run() {
+    let lines = printed(
+        "from __future__ import annotations\ntry:\n    import numpy\nexcept ModuleNotFoundError as error:\n    print(error.name)",
+    );
+    assert_eq!(lines, ["numpy"]);
+}
+
+#[test]
+fn shuffle_and_sample_follow_from_the_seed_and_lose_nothing() {
+    let body = "import random\na = list(range(50))\nrandom.shuffle(a)\nb = random.sample(range(50), 50)\n\
+                print(sorted(a) == sorted(b) == list(range(50)), a != b, len(set(random.sample('abcdef', 3))))\nprint(a, b)";
+    let lines = printed(body);
+    assert_eq!(lines[0], "True True 3");
+    assert_eq!(lines, printed(body));
+    assert!(error_of("import random\nrandom.sample([1], 2)").contains("larger than population"));
+}
+
+#[test]
 fn random_follows_from_the_seed() {
     let body = "import random\nprint(random.uniform(2, 3), random.gauss(0, 1), random.random(), random.randint(1, 6), random.choice('abc'))";
     let lines = printed(body);
