@@ -44,9 +44,9 @@ fn math_and_round_answer_as_cpython_does() {
 
 #[test]
 fn everyday_first_lines_of_a_script_run() {
-    let lines = printed(
-        "from __future__ import annotations\ntry:\n    import numpy\nexcept ModuleNotFoundError as error:\n    print(error.name)",
-    );
+    let text = "from __future__ import annotations\ntry:\n    import numpy\nexcept ModuleNotFoundError as error:\n    print(error.name)\n\
+                class C:\n    def step(self): pass\n";
+    let lines = start(text).unwrap().step(&snapshot()).printed;
     assert_eq!(lines, ["numpy"]);
 }
 
