@@ -1,9 +1,13 @@
 //! Which animation, which person, which joint: files with several of each.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::binary_support::{floats, glb};
 use sinew_motion::formats::{Document, MotionFile, ReadOptions, gltf};
 use sinew_motion::{Humanoid, Limits, Origin, Part, Side};
 use std::fmt::Write;
+
+/// Name, parent and offset \[m\] of a joint.
+type Bone = (String, Option<usize>, [f64; 3]);
 
 /// Joints of a body: name without side, parent, offset \[m\]; `@` stands for the side, which mirrors X.
 const BODY: [(&str, &str, [f64; 3]); 14] = [
@@ -24,7 +28,7 @@ const BODY: [(&str, &str, [f64; 3]); 14] = [
 ];
 
 /// A body as joints: name, index of the parent, offset. `called` gives each its name in the file, `skips` leaves joints out.
-fn body(called: impl Fn(&str, Option<Side>) -> String, skips: &[&str]) -> Vec<(String, Option<usize>, [f64; 3])> {
+fn body(called: impl Fn(&str, Option<Side>) -> String, skips: &[&str]) -> Vec<Bone> {
     let mut keys: Vec<String> = Vec::new();
     let mut joints = Vec::new();
     for side in [Some(Side::Left), Some(Side::Right)] {
@@ -44,8 +48,8 @@ fn body(called: impl Fn(&str, Option<Side>) -> String, skips: &[&str]) -> Vec<(S
 }
 
 /// The same as BVH trees, one for each body; every body travels by this much along Z, in three frames.
-fn bvh(bodies: &[Vec<(String, Option<usize>, [f64; 3])>], travel: f64) -> String {
-    fn write(text: &mut String, joints: &[(String, Option<usize>, [f64; 3])], at: usize) {
+fn bvh(bodies: &[Vec<Bone>], travel: f64) -> String {
+    fn write(text: &mut String, joints: &[Bone], at: usize) {
         let (name, parent, [x, y, z]) = &joints[at];
         let (word, channels) = match parent {
             None => ("ROOT", "6 Xposition Yposition Zposition Zrotation Xrotation Yrotation"),
