@@ -216,7 +216,7 @@ fn every_fault_names_its_line_and_a_remedy() {
         ),
         ("\"rightHand\" }", "\"rightHnd\" }", "line 16: characters.left.aliases.RightArm: no part", "`rightHand`?"),
         ("object = \"ball\"", "object = \"bell\"", "line 55: at.1: do = \"attach\": no object", "did you mean `ball`?"),
-        ("link = \"RightArm\"", "link = \"LeftArm\"", "line 55: at.1: do = \"attach\": no part", "RightArm"),
+        ("link = \"RightArm\"", "link = \"RightArn\"", "line 55: at.1: do = \"attach\": no part", "RightArm"),
         (
             "left.rightHand\"",
             "left.rihtHand\"",
