@@ -21,6 +21,7 @@ mod respond;
 mod run;
 #[cfg(feature = "session")]
 mod serve;
+mod stop;
 mod video;
 #[cfg(not(feature = "session"))]
 mod without_session;
@@ -75,11 +76,20 @@ enum Command {
     Join(without_session::WithoutSession),
 }
 
+/// The length of a unit of length \[m\], by its name or as a number.
+fn unit(text: &str) -> Result<f64, String> {
+    const UNITS: [(&str, f64); 6] =
+        [("m", 1.0), ("dm", 0.1), ("cm", 0.01), ("mm", 0.001), ("in", 0.0254), ("ft", 0.3048)];
+    let named = UNITS.into_iter().find(|(name, _)| text.eq_ignore_ascii_case(name)).map(|(_, metres)| metres);
+    let usage = "write metres per unit of the file, such as 0.01, or one of m, dm, cm, mm, in, ft";
+    named.or_else(|| text.parse().ok()).ok_or_else(|| usage.to_owned())
+}
+
 /// Options for reading a motion file.
 #[derive(Debug, clap::Args)]
 struct Reading {
-    /// Length of one unit of the file in metres (0.01 for centimetres) instead of a guess.
-    #[arg(long, value_name = "METRES")]
+    /// Length of one unit of the file in metres (0.01), or its name (m, dm, cm, mm, in, ft), instead of a guess.
+    #[arg(long, value_name = "METRES", value_parser = unit)]
     units: Option<f64>,
     /// The .asf skeleton of an .amc motion, when it is not beside it.
     #[arg(long, value_name = "S.asf")]

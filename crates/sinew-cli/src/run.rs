@@ -5,6 +5,7 @@ use crate::interactive::Interactive;
 use crate::live::LiveArguments;
 use crate::output;
 use crate::progress::Progress;
+use crate::stop::Stop;
 use anyhow::{Context, Result, bail};
 use sinew::jobs::run::{Footage, Ran, RunJob, movie, replay, run, sheet};
 use sinew::script::ScriptHost;
@@ -98,7 +99,7 @@ impl Run {
             Some(interactive) => interactive,
             None => &mut progress,
         };
-        let mut ran = run(scene, &job, &mut [beside, &mut live])?;
+        let mut ran = run(scene, &job, &mut [beside, &mut live, &mut Stop::listen()])?;
         drop(progress);
         ran.report.add_ports(live.performers());
         if let Some(path) = &self.take {

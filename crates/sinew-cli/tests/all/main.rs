@@ -8,5 +8,6 @@ mod command_perform;
 mod command_reach;
 mod command_respond;
 mod command_run;
+mod command_stop;
 mod command_video;
 mod without_parts;

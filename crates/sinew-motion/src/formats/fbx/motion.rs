@@ -36,6 +36,9 @@ pub(super) fn sample(
 ) -> Result<Clip, Error> {
     let mut rest = Vec::new();
     pose_into(scene, bones, &mut rest)?;
+    if let Some(bound) = bind_pose(scene, bones) {
+        rest = bound;
+    }
     let span = span(scene, stack, limits)?;
     let mut frames: Vec<Vec<Transform>> = Vec::new();
     match (stack, span.frames) {
@@ -107,6 +110,27 @@ fn pose_into(scene: &ufbx::Scene, bones: &[Bone], locals: &mut Vec<Transform>) -
         world.push(world_from_joint);
     }
     Ok(())
+}
+
+/// `parent_from_joint` of every bone \[m\] in the bind pose that the file states: the pose in which its mesh was bound, where nodes keep the
+/// frame at which it was exported. `None` unless it has every bone.
+fn bind_pose(scene: &ufbx::Scene, bones: &[Bone]) -> Option<Vec<Transform>> {
+    let mut world: Vec<Transform> = Vec::with_capacity(bones.len());
+    let mut locals = Vec::with_capacity(bones.len());
+    for bone in bones {
+        let node = scene.nodes.get(bone.node)?;
+        let bound = node.bind_pose.as_ref().and_then(|pose| ufbx::get_bone_pose(pose, node));
+        let world_from_joint = match bound {
+            Some(bound) => rigid(&bound.bone_to_world)?,
+            // Nodes above the bones are in no bind pose.
+            None if node.bone.is_none() => rigid(&node.node_to_world)?,
+            None => return None,
+        };
+        let local = bone.parent.map_or(world_from_joint, |parent| world[parent].inverse() * world_from_joint);
+        locals.push(Transform::new(local.rotation.normalize(), local.translation));
+        world.push(world_from_joint);
+    }
+    Some(locals)
 }
 
 /// A matrix without its scale, by Gram-Schmidt.
