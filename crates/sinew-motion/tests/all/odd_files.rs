@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use glam::{DQuat, DVec3};
-use sinew_motion::formats::{MotionFile, ReadOptions, Source, WriteJob, amc, bvh};
+use sinew_motion::formats::{MotionFile, ReadOptions, Source, WriteJob, amc, bvh, fbx};
 use sinew_motion::{Clip, Joint, Limits, Skeleton, Transform};
 use std::path::Path;
 
@@ -193,4 +193,60 @@ fn a_skeleton_alone_is_its_rest_pose() {
     assert!(file.notes.iter().any(|note| note.to_string().contains("a skeleton without a motion")));
     let error = MotionFile::read(Path::new("nowhere.asf"), &ReadOptions::default()).unwrap_err();
     assert!(!error.to_string().contains("AMC"), "{error}");
+}
+
+/// Hips, arm and hand as FBX text: the arm stands up in the nodes; in the bind pose, if there is one, it lies along X.
+fn fbx_text(bound: &[(u32, [f64; 3])]) -> String {
+    let axes = [("UpAxis", 1), ("FrontAxis", 2), ("CoordAxis", 0)];
+    let axes = axes.map(|(name, axis)| {
+        format!("P: \"{name}\", \"int\", \"Integer\", \"\",{axis}\nP: \"{name}Sign\", \"int\", \"Integer\", \"\",1\n")
+    });
+    let bones =
+        [(1, "hips", [0.0, 1.0, 0.0], 0.0), (2, "arm", [0.5, 0.0, 0.0], 90.0), (3, "hand", [0.3, 0.0, 0.0], 0.0)];
+    let objects = bones.map(|(id, name, [x, y, z], degrees)| {
+        format!(
+            "NodeAttribute: 1{id}, \"NodeAttribute::{name}\", \"LimbNode\" {{\nTypeFlags: \"Skeleton\"\n}}\n\
+             Model: {id}, \"Model::{name}\", \"LimbNode\" {{\nVersion: 232\nProperties70:  {{\n\
+             P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",{x},{y},{z}\n\
+             P: \"Lcl Rotation\", \"Lcl Rotation\", \"\", \"A\",0,0,{degrees}\n}}\n}}\n"
+        )
+    });
+    let nodes: Vec<String> = bound
+        .iter()
+        .map(|(id, [x, y, z])| {
+            format!("PoseNode:  {{\nNode: {id}\nMatrix: *16 {{\na: 1,0,0,0,0,1,0,0,0,0,1,0,{x},{y},{z},1\n}}\n}}\n")
+        })
+        .collect();
+    let pose = format!(
+        "Pose: 9, \"Pose::bind\", \"BindPose\" {{\nType: \"BindPose\"\nVersion: 100\nNbPoseNodes: {}\n{}}}\n",
+        nodes.len(),
+        nodes.concat()
+    );
+    let links =
+        [(1, 0), (2, 1), (3, 2), (11, 1), (12, 2), (13, 3)].map(|(one, other)| format!("C: \"OO\",{one},{other}\n"));
+    format!(
+        "; FBX 7.4.0 project file\nFBXHeaderExtension:  {{\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}}\nGlobalSettings:  {{\nVersion: \
+         1000\nProperties70:  {{\n{}P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",100\n}}\n}}\nObjects:  \
+         {{\n{}{}}}\nConnections:  {{\n{}}}\n",
+        axes.concat(),
+        objects.concat(),
+        if bound.is_empty() { String::new() } else { pose },
+        links.concat()
+    )
+}
+
+#[test]
+fn the_bind_pose_of_an_fbx_is_its_rest_pose_and_its_nodes_are_its_frame() {
+    let hand = |text: &str| {
+        let clip = fbx::read(text.as_bytes(), &Limits::default()).unwrap().clip;
+        [clip.skeleton().rest_world()[2].translation, clip.world(0)[2].translation]
+    };
+    let (up, along) = (DVec3::new(0.5, 1.3, 0.0), DVec3::new(0.8, 1.0, 0.0));
+    let whole = [(1, [0.0, 1.0, 0.0]), (2, [0.5, 1.0, 0.0]), (3, [0.8, 1.0, 0.0])];
+    for (bound, rest) in [(&whole[..], along), (&[], up), (&whole[..2], along), (&whole[1..], up)] {
+        let [rests, stands] = hand(&fbx_text(bound));
+        // A bone above bound ones that is in no pose leaves the nodes'.
+        assert!(rests.distance(rest) < 1e-9, "{} bound: {rests}", bound.len());
+        assert!(stands.distance(up) < 1e-9, "{} bound: {stands}", bound.len());
+    }
 }

@@ -34,11 +34,9 @@ pub(super) fn sample(
     limits: &Limits,
     notes: &mut Vec<Note>,
 ) -> Result<Clip, Error> {
-    let mut rest = Vec::new();
-    pose_into(scene, bones, &mut rest)?;
-    if let Some(bound) = bind_pose(scene, bones) {
-        rest = bound;
-    }
+    let mut posed = Vec::new();
+    pose_into(scene, bones, &mut posed)?;
+    let rest = bind_pose(scene, bones, &posed).unwrap_or_else(|| posed.clone());
     let span = span(scene, stack, limits)?;
     let mut frames: Vec<Vec<Transform>> = Vec::new();
     match (stack, span.frames) {
@@ -64,7 +62,7 @@ pub(super) fn sample(
         }
         _ => {
             notes.push(Note::new("no animation with keys: the clip is one frame of the file's pose"));
-            frames.push(rest.clone());
+            frames.push(posed);
         }
     }
     Ok(clip(bones, rest, &frames, 1.0 / span.hz))
@@ -113,24 +111,38 @@ fn pose_into(scene: &ufbx::Scene, bones: &[Bone], locals: &mut Vec<Transform>) -
 }
 
 /// `parent_from_joint` of every bone \[m\] in the bind pose that the file states: the pose in which its mesh was bound, where nodes keep the
-/// frame at which it was exported. `None` unless it has every bone.
-fn bind_pose(scene: &ufbx::Scene, bones: &[Bone]) -> Option<Vec<Transform>> {
+/// frame at which it was exported. Bones that no mesh is bound to, and none below them, stay as they are in `rest`; `None` if others
+/// are missing.
+fn bind_pose(scene: &ufbx::Scene, bones: &[Bone], rest: &[Transform]) -> Option<Vec<Transform>> {
+    let bound = |bone: &Bone| {
+        let node = scene.nodes.get(bone.node)?;
+        let pose = node.bind_pose.as_ref()?;
+        rigid(&ufbx::get_bone_pose(pose, node)?.bone_to_world)
+    };
+    let bound: Vec<Option<Transform>> = bones.iter().map(bound).collect();
+    let mut carries: Vec<bool> = bound.iter().map(Option::is_some).collect();
+    for (at, bone) in bones.iter().enumerate().rev() {
+        if let (true, Some(parent)) = (carries[at], bone.parent) {
+            carries[parent] = true;
+        }
+    }
     let mut world: Vec<Transform> = Vec::with_capacity(bones.len());
     let mut locals = Vec::with_capacity(bones.len());
-    for bone in bones {
+    for (at, bone) in bones.iter().enumerate() {
         let node = scene.nodes.get(bone.node)?;
-        let bound = node.bind_pose.as_ref().and_then(|pose| ufbx::get_bone_pose(pose, node));
-        let world_from_joint = match bound {
-            Some(bound) => rigid(&bound.bone_to_world)?,
+        let above = bone.parent.map_or(Transform::IDENTITY, |parent| world[parent]);
+        let world_from_joint = match bound[at] {
+            Some(bound) => bound,
+            None if !carries[at] => above * rest[at],
             // Nodes above the bones are in no bind pose.
             None if node.bone.is_none() => rigid(&node.node_to_world)?,
             None => return None,
         };
-        let local = bone.parent.map_or(world_from_joint, |parent| world[parent].inverse() * world_from_joint);
+        let local = above.inverse() * world_from_joint;
         locals.push(Transform::new(local.rotation.normalize(), local.translation));
         world.push(world_from_joint);
     }
-    Some(locals)
+    bound.iter().any(Option::is_some).then_some(locals)
 }
 
 /// A matrix without its scale, by Gram-Schmidt.
