@@ -200,12 +200,12 @@ impl Out {
             lines.push(format!("  and {hidden} more events; --report R.json lists them"));
         }
         for (name, character) in &report.characters {
-            let margin = character.com_margin_end_m.map_or("in the air".to_owned(), |margin| {
-                format!("centre of mass {:.0} mm inside its support", margin * 1e3)
-            });
             lines.push(format!(
-                "{name}: hips at {:.2} m (lowest {:.2} m), {} steps, {margin}",
-                character.hips_height_end_m, character.hips_height_min_m, character.steps
+                "{name}: hips at {:.2} m (lowest {:.2} m), {} steps, {}",
+                character.hips_height_end_m,
+                character.hips_height_min_m,
+                character.steps,
+                character.ending()
             ));
         }
         for (name, character) in &report.characters {

@@ -6,6 +6,7 @@
 )]
 
 mod claims_input;
+mod fell;
 mod golden;
 mod pictures;
 mod ran;

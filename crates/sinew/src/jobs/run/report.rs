@@ -5,6 +5,7 @@ use super::external_force::{ExternalForceReport, Meter};
 use super::reaches::ReachWatch;
 use crate::jobs::reach::ReachReport;
 use serde::Serialize;
+use sinew_control::tracker::TrackerKind;
 use sinew_live::Performers;
 use sinew_stage::{Event, Observer, Stage};
 use sinew_world::Entity;
@@ -45,6 +46,8 @@ pub struct CharacterReport {
     pub centre_end_m: [f64; 3],
     /// Distance of the centre of mass inside the support polygon at the end \[m\]; null in the air.
     pub com_margin_end_m: Option<f64>,
+    /// When it first fell \[s\]: its trunk or head touched the ground after it had not; null if it never did.
+    pub fell_at_s: Option<f64>,
     /// Number of foot contacts: new contacts of a foot with the ground after a swing phase.
     pub steps: u64,
     /// Maximum impulse of a contact with anything except the ground, in one physics step \[N s\].
@@ -64,6 +67,12 @@ pub struct CharacterReport {
     reach: ReachWatch,
     #[serde(skip)]
     in_the_air: [u64; 2],
+    /// It was once off the ground with trunk and head.
+    #[serde(skip)]
+    was_up: bool,
+    /// Its tracker shows its motion without physics at the end: it has no contacts.
+    #[serde(skip)]
+    is_kinematic: bool,
 }
 
 /// Physics steps that a foot must have been off the ground for its touch to count as a step: a twentieth of a second at 240 Hz.
@@ -105,6 +114,9 @@ impl RunReport {
                 character.hips_height_end_m = seen.parts[0].position.y;
                 character.centre_end_m = seen.centre_of_mass.into();
                 character.com_margin_end_m = seen.support_margin_m();
+                let id = stage.cast().character(name);
+                let tracker = id.and_then(|id| stage.state_of(id)).map(|actor| actor.tracker().kind());
+                character.is_kinematic = tracker == Some(TrackerKind::Kinematic);
             }
             character.pins = character.meters[0].report();
             character.held = character.meters[1].report();
@@ -113,6 +125,18 @@ impl RunReport {
 }
 
 impl CharacterReport {
+    /// How it ends, in words: whether it fell, and where its weight is.
+    pub fn ending(&self) -> String {
+        let fell = self.fell_at_s.map_or(String::new(), |secs| format!("fell at {secs:.2} s, "));
+        let weight = match self.com_margin_end_m {
+            Some(margin) if margin < 0.0 => format!("centre of mass {:.0} mm outside its support", -margin * 1e3),
+            Some(margin) => format!("centre of mass {:.0} mm inside its support", margin * 1e3),
+            None if self.is_kinematic => "shown without physics".to_owned(),
+            None => "in the air".to_owned(),
+        };
+        format!("{fell}{weight}")
+    }
+
     /// Of a character that has just come.
     fn new() -> CharacterReport {
         CharacterReport { hips_height_min_m: f64::INFINITY, ..CharacterReport::default() }
@@ -143,6 +167,13 @@ impl Observer for RunReport {
                     character.hit_impulse_max_n_s = character.hit_impulse_max_n_s.max(contact.impulse.length());
                 }
             }
+            let lies = [Node::Hips, Node::Chest, Node::Head]
+                .into_iter()
+                .any(|part| frame.are_touching(Entity::Floor, Entity::Part(id, part)));
+            if lies && character.was_up && character.fell_at_s.is_none() {
+                character.fell_at_s = Some(frame.time_secs);
+            }
+            character.was_up |= !lies;
             for (side, foot) in [Node::LeftFoot, Node::RightFoot].into_iter().enumerate() {
                 if frame.are_touching(Entity::Floor, Entity::Part(id, foot)) {
                     character.steps += u64::from(character.in_the_air[side] >= OFF_STEPS);
