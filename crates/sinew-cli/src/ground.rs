@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// Arguments of `sinew ground`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Ground {
-    /// The clip that floats, sinks, drifts or shakes: .bvh, .amc, .glb, .gltf or .fbx.
+    /// The clip that floats, sinks, drifts or shakes: .bvh, .amc, .glb, .gltf, .vrm, .vrma or .fbx.
     clip: PathBuf,
     /// Height of the floor in metres, instead of where the clip's own soles stand on average.
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
@@ -55,7 +55,7 @@ impl Ground {
         }
         self.files.write_video(|| movie(&grounded, &file.clip, humanoid, &title))?;
         bar.finish_and_clear();
-        notes.iter().chain(&grounded.notes).for_each(|note| eprintln!("note: {note}"));
+        notes.iter().chain(&grounded.notes).for_each(output::note);
         output::say(&words(&grounded, &self.files))
     }
 }
